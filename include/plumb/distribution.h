@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Choosing one of n things in proportion to given weights.
+//
+// Built serially in the order given, in double precision, so that it has the same bits everywhere.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace plumb {
+
+class DiscreteDistribution {
+public:
+    struct Choice {
+        std::uint32_t index;
+        float probability;
+        double u; // what is left of the random number, uniform in [0, 1) again
+    };
+
+    DiscreteDistribution() = default;
+    explicit DiscreteDistribution(std::span<const double> weights); // finite, not negative
+
+    std::size_t size() const { return cdf_.empty() ? 0 : cdf_.size() - 1; }
+    double sum() const { return sum_; }
+    bool can_sample() const { return sum_ > 0.0; }
+
+    // u in [0, 1). Never chooses a thing of weight 0. Needs can_sample().
+    Choice sample(double u) const;
+    float probability(std::size_t index) const { return static_cast<float>(cdf_[index + 1] - cdf_[index]); }
+
+private:
+    std::vector<double> cdf_; // size + 1 values from 0 to 1
+    double sum_ = 0.0;
+};
+
+} // namespace plumb

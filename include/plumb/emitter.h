@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The interface of emitters.
+
+#include "plumb/color.h"
+#include "plumb/surface.h"
+
+#include <optional>
+#include <string_view>
+
+namespace plumb {
+
+// The measure in which a point on an emitter is chosen; the density is per unit solid angle at the receiver either
+// way. `best`: by solid angle where the shape can, else by area.
+enum class Measure { best, area, solid_angle };
+
+struct EmitterValue {
+    Color radiance;
+    float pdf = 0.f; // per unit solid angle, as sample() in the same measure would have chosen this direction
+};
+
+struct EmitterSample {
+    Vec3f wi;              // unit vector from the receiver towards the light, world space
+    float distance;        // infinity for directional and environment light
+    Vec3f position;        // the chosen point (finite emitters)
+    Vec3f error;           // as in SurfacePoint; zero for lights without a surface
+    Vec3f normal;          // geometric normal at position; zero for lights without a surface
+    Color radiance;        // arriving if nothing is in between; for point lights intensity / distance^2
+    float pdf;             // per unit solid angle; 1 where is_delta
+    bool is_delta = false; // no other technique can find this light
+};
+
+// The sphere around everything that is not infinitely far away.
+struct SceneSphere {
+    Vec3f center;
+    float radius = 0.f;
+};
+
+// Conventions. World space. Densities do not include the choice among emitters. u_select and u as in shape.h;
+// u = (1/2, 1/2) gives the middle of a light.
+class Emitter {
+public:
+    virtual ~Emitter() = default;
+
+    // Called once, before power() and before any sample.
+    virtual void prepare(const SceneSphere&) {}
+
+    // Nothing where no light can arrive at `from` (behind a one-sided lamp, say).
+    virtual std::optional<EmitterSample> sample(const Vec3f& from, double u_select, Vec2f u,
+                                                Measure measure) const = 0;
+
+    // What a ray from `from` along unit wi sees of this emitter: at the surface point `at` for area lights, or with
+    // at == nullptr when the ray has left the scene. Zero for point and directional lights.
+    virtual EmitterValue evaluate(const Vec3f& from, const Vec3f& wi, const SurfacePoint* at,
+                                  Measure measure) const = 0;
+
+    // Emitted power in watts, luminance-weighted: what emitters are chosen in proportion to. Positive unless the
+    // emitter is black everywhere.
+    virtual float power() const = 0;
+
+    virtual bool is_delta() const { return false; } // BSDF sampling cannot reach it
+    virtual bool is_infinite() const
+    {
+        return false;
+    } // seen by rays that leave the scene, or delta at infinity
+    virtual bool has_solid_angle() const { return true; } // Measure::solid_angle is possible
+};
+
+} // namespace plumb

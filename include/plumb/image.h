@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Pictures in memory and on disk. The pixels live in an OpenImageIO ImageBuf of 32-bit floats; src/io/image.cpp is
+// its only user.
+//
+// Conventions. Row 0 is the top row. Values are linear light unless a parameter says otherwise.
+
+#include "plumb/color.h"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace plumb {
+
+// A rectangle of pixels: columns [x, x + width), rows [y, y + height).
+struct PixelRect {
+    int x = 0;
+    int y = 0;
+    int width = 0;
+    int height = 0;
+    friend bool operator==(const PixelRect&, const PixelRect&) = default;
+};
+
+// What an image file's header says, in a fixed order. Matrices are 16 floats, row-major.
+using MetadataValue = std::variant<int, float, std::string, std::vector<float>>;
+using Metadata = std::vector<std::pair<std::string, MetadataValue>>;
+
+class Image {
+public:
+    // data: the pixels that exist, inside a full picture of full_width x full_height. Throws Error if memory is short.
+    Image(PixelRect data, int full_width, int full_height,
+          std::vector<std::string> channels = {"R", "G", "B"});
+    Image(int width, int height) : Image({0, 0, width, height}, width, height) {}
+    Image(Image&&) noexcept;
+    Image& operator=(Image&&) noexcept;
+    ~Image();
+
+    const PixelRect& data_window() const;
+    int full_width() const;
+    int full_height() const;
+    int channel_count() const;
+    const std::vector<std::string>& channel_names() const;
+
+    // x, y: inside the data window, in coordinates of the full picture. channel_count() floats.
+    float* pixel(int x, int y);
+    const float* pixel(int x, int y) const;
+    Color color(int x, int y) const; // the first three channels, or the first one three times
+
+    Metadata metadata; // what read_image found, and what write_image writes
+
+private:
+    friend Image read_image(const std::filesystem::path& path, bool decode_srgb);
+    friend void write_image(const std::filesystem::path& path, const Image& image, float exposure);
+    struct Impl;
+    explicit Image(std::unique_ptr<Impl> impl);
+    std::unique_ptr<Impl> impl_;
+};
+
+// Reads any format that OpenImageIO reads. Integer formats become value / maximum; decode_srgb also undoes the sRGB
+// curve for 8-bit and 16-bit integer formats (floating-point formats are linear). Throws Error naming the file.
+Image read_image(const std::filesystem::path& path, bool decode_srgb);
+
+// Writes by extension: .exr (32-bit float, ZIP, data and display window), .hdr, .tif/.tiff (float), .png and .jpg
+// (8-bit sRGB after multiplying by 2^exposure; clamped, rounded). The file appears whole or not at all: it is
+// written beside `path` and renamed. Metadata goes into formats that can hold it. Same image, same bytes.
+void write_image(const std::filesystem::path& path, const Image& image, float exposure = 0.f);
+
+// Throws Error if `path` cannot be written: unknown extension, missing or read-only folder, a folder of that name.
+void check_image_path(const std::filesystem::path& path);
+
+} // namespace plumb

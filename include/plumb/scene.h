@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The scene: owns shapes, BSDFs and emitters, and answers what a ray meets.
+
+#include "plumb/bsdf.h"
+#include "plumb/distribution.h"
+#include "plumb/emitter.h"
+#include "plumb/shape.h"
+
+#include <memory>
+#include <vector>
+
+namespace plumb {
+
+// A shape, what it is made of, and the light it gives. bsdf is never null; emitter may be.
+struct SceneObject {
+    std::unique_ptr<Shape> shape;
+    std::unique_ptr<Bsdf> bsdf;
+    std::unique_ptr<Emitter> emitter;
+    std::string name; // "mesh 'obj' (cbox.xml:12)", for people
+};
+
+struct SceneOptions {
+    bool emitters_absorb = false; // paths end at emitters
+    std::string instruction_set =
+        "avx2"; // sse2, sse4.2, avx, avx2 or avx512: Embree traces with this and no other
+};
+
+// An emitter chosen among all, and a point on it. pdf includes the choice.
+struct LightSample : EmitterSample {
+    const Emitter* emitter = nullptr;
+};
+
+// Conventions. World space. Emitters are chosen in proportion to their power.
+class Scene {
+public:
+    // lights: the emitters that no shape carries. Builds the acceleration structure; throws Error if Embree cannot.
+    Scene(std::vector<SceneObject> objects, std::vector<std::unique_ptr<Emitter>> lights,
+          const SceneOptions& options = {});
+    Scene(Scene&&) noexcept;
+    Scene& operator=(Scene&&) noexcept;
+    ~Scene();
+
+    std::optional<SurfacePoint> intersect(const Ray& ray) const;
+    bool occluded(const Ray& ray) const;
+    // The ray between a surface point and a light's chosen point, clear of both surfaces.
+    static Ray shadow_ray(const SurfacePoint& from, const EmitterSample& light);
+
+    // One emitter, chosen by u_choice (which is used up: what is left of it selects a part of the emitter).
+    // delta_only: choose among point and directional lights alone.
+    std::optional<LightSample> sample_emitter(const Vec3f& from, double u_choice, Vec2f u,
+                                              Measure measure = Measure::best) const;
+    std::optional<LightSample> sample_delta_emitter(const Vec3f& from, double u_choice, Vec2f u) const;
+    // What a ray from `from` along unit wi sees: the emitter of the surface it hit or, with hit == nullptr, all
+    // infinite emitters. pdf: as sample_emitter would have chosen it. Black where nothing is emitted.
+    EmitterValue emission(const Vec3f& from, const Vec3f& wi, const SurfacePoint* hit,
+                          Measure measure = Measure::best) const;
+
+    bool has_delta_emitters() const { return delta_choice_.can_sample(); }
+    bool emitters_absorb() const { return options_.emitters_absorb; }
+    const std::vector<const Emitter*>& emitters() const { return emitters_; } // all, in document order
+    const std::vector<SceneObject>& objects() const { return objects_; }
+    Box3f bounds() const;
+    std::uint64_t triangle_count() const;
+    const SceneOptions& options() const { return options_; }
+    std::string embree_version() const; // "3.13.5"
+
+private:
+    class Accel;
+    SceneOptions options_;
+    std::vector<SceneObject> objects_;
+    std::vector<std::unique_ptr<Emitter>> lights_;
+    std::vector<const Emitter*> emitters_;         // those of objects_, then lights_
+    std::vector<std::uint32_t> emitter_of_object_; // index into emitters_
+    std::vector<std::uint32_t> infinite_;          // indices of infinite, not delta emitters
+    std::vector<std::uint32_t> delta_;             // indices of delta emitters
+    DiscreteDistribution choice_;                  // over emitters_
+    DiscreteDistribution delta_choice_;            // over delta_
+    std::unique_ptr<Accel> accel_;
+};
+
+} // namespace plumb

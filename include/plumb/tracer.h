@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// One thread's view of the scene: it traces rays, counts them by kind, and for `renderer replay` keeps a log.
+
+#include "plumb/scene.h"
+
+#include <string>
+#include <vector>
+
+namespace plumb {
+
+enum class RayKind { camera, bounce, shadow };
+
+struct RayCounts {
+    std::uint64_t camera = 0;
+    std::uint64_t bounce = 0;
+    std::uint64_t shadow = 0;
+
+    std::uint64_t total() const { return camera + bounce + shadow; }
+    RayCounts& operator+=(const RayCounts& other);
+};
+
+// What happened along one path, in order, for people to read.
+struct PathEvent {
+    enum class Kind { ray, hit, escape, emission, direct, scatter, roulette, end };
+    Kind kind;
+    std::string text;
+};
+
+class Tracer {
+public:
+    explicit Tracer(const Scene& scene, std::vector<PathEvent>* log = nullptr) : scene_(scene), log_(log) {}
+
+    const Scene& scene() const { return scene_; }
+    const RayCounts& counts() const { return counts_; }
+
+    std::optional<SurfacePoint> intersect(const Ray& ray, RayKind kind);
+    bool occluded(const Ray& ray);
+    // Whether light from the sampled point arrives at `from`.
+    bool visible(const SurfacePoint& from, const EmitterSample& light);
+
+    // The log costs one test of a pointer when nobody reads it.
+    bool logging() const { return log_ != nullptr; }
+    void log(PathEvent::Kind kind, std::string text);
+    // A contribution to the pixel: what it is, and throughput times value.
+    void log_contribution(PathEvent::Kind kind, const char* what, const Color& contribution);
+
+private:
+    const Scene& scene_;
+    RayCounts counts_;
+    std::vector<PathEvent>* log_;
+};
+
+} // namespace plumb

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+
+// [1] Salmon, Moraes, Dror and Shaw 2011, "Parallel Random Numbers: As Easy as 1, 2, 3", SC'11.
+
+#include "interfaces/plugin.h"
+
+#include "plumb/film.h"
+#include "plumb/sampler.h"
+
+#include <array>
+
+namespace plumb {
+namespace {
+
+using Words = std::array<std::uint32_t, 4>;
+
+// Philox4x32 with 10 rounds, [1], section 3.3: a keyed bijection of 128-bit counters whose outputs pass BigCrush.
+Words philox(Words counter, std::uint64_t key)
+{
+    auto key0 = static_cast<std::uint32_t>(key);
+    auto key1 = static_cast<std::uint32_t>(key >> 32);
+    for (int round = 0; round < 10; ++round) {
+        const std::uint64_t a = std::uint64_t{0xD2511F53u} * counter[0];
+        const std::uint64_t b = std::uint64_t{0xCD9E8D57u} * counter[2];
+        counter = {static_cast<std::uint32_t>(b >> 32) ^ counter[1] ^ key0, static_cast<std::uint32_t>(b),
+                   static_cast<std::uint32_t>(a >> 32) ^ counter[3] ^ key1, static_cast<std::uint32_t>(a)};
+        key0 += 0x9E3779B9u;
+        key1 += 0xBB67AE85u;
+    }
+    return counter;
+}
+
+} // namespace
+
+/// Independent uniform random numbers from a counter-based generator (Philox4x32-10): number d of sample i of a
+/// pixel is a function of seed, pixel, i and d alone.
+///
+///     sampleCount   integer   samples per pixel, from 1 to 2^26   (default 1)
+///
+///         <sampler type="independent">
+///             <integer name="sampleCount" value="64"/>
+///         </sampler>
+class IndependentSampler final : public Sampler {
+public:
+    explicit IndependentSampler(const Params& params)
+        : samples_per_pixel_(static_cast<std::uint64_t>(
+              params.integer("sampleCount", 1, Range::closed(1.0, static_cast<double>(film_max_samples)))))
+    {}
+
+    std::unique_ptr<Sampler> clone() const override { return std::make_unique<IndependentSampler>(*this); }
+    std::uint64_t samples_per_pixel() const override { return samples_per_pixel_; }
+
+    void start(std::uint64_t seed, Vec2i pixel, std::uint64_t sample_index) override
+    {
+        seed_ = seed;
+        counter_ = {0, static_cast<std::uint32_t>(pixel.x) | static_cast<std::uint32_t>(pixel.y) << 16,
+                    static_cast<std::uint32_t>(sample_index), static_cast<std::uint32_t>(sample_index >> 32)};
+        used_ = 4;
+    }
+
+    float next_1d() override { return to_unit(next_word()); }
+
+    Vec2f next_2d() override
+    {
+        const float x = to_unit(next_word());
+        const float y = to_unit(next_word());
+        return {x, y};
+    }
+
+    double next_choice() override
+    {
+        const std::uint64_t high = next_word();
+        const std::uint64_t low = next_word();
+        return static_cast<double>((high << 32 | low) >> 11) * 0x1p-53;
+    }
+
+private:
+    static float to_unit(std::uint32_t word) { return static_cast<float>(word >> 8) * 0x1p-24f; }
+
+    std::uint32_t next_word()
+    {
+        if (used_ == 4) {
+            words_ = philox(counter_, seed_);
+            ++counter_[0];
+            used_ = 0;
+        }
+        return words_[used_++];
+    }
+
+    std::uint64_t samples_per_pixel_;
+    std::uint64_t seed_ = 0;
+    Words counter_{}; // block within the sample, pixel, sample index (low and high word)
+    Words words_{};
+    unsigned used_ = 4;
+};
+
+template std::unique_ptr<Sampler> build<IndependentSampler>(const Params&);
+
+} // namespace plumb

@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: MIT
+
+// The only user of Embree: version 3.13 or 4.
+
+#include "scene/accel.h"
+
+#include "plumb/error.h"
+#include "plumb/intersection.h"
+
+#include <cstring>
+#include <mutex>
+
+#include <fmt/format.h>
+
+#if PLUMB_EMBREE_MAJOR >= 4
+#include <embree4/rtcore.h>
+using RayQueryContext = RTCRayQueryContext;
+#else
+#include <embree3/rtcore.h>
+using RayQueryContext = RTCIntersectContext;
+#endif
+
+namespace plumb {
+namespace {
+
+// Embree accepts hits at exactly t_min; ours is an open interval, and a ray that starts in a plane must not meet it.
+constexpr float smallest_t = std::numeric_limits<float>::min();
+
+struct InstructionSet {
+    std::string_view name; // ours
+    const char* embree_name;
+    bool supported;
+};
+
+InstructionSet find_instruction_set(const std::string& name)
+{
+#if defined(__x86_64__)
+    const InstructionSet known[] = {
+        {"sse2", "sse2", __builtin_cpu_supports("sse2") != 0},
+        {"sse4.2", "sse4.2", __builtin_cpu_supports("sse4.2") != 0},
+        {"avx", "avx", __builtin_cpu_supports("avx") != 0},
+        {"avx2", "avx2", __builtin_cpu_supports("avx2") != 0},
+        {"avx512", "avx512",
+         __builtin_cpu_supports("avx512dq") != 0 && __builtin_cpu_supports("avx512vl") != 0},
+    };
+    for (const InstructionSet& set : known)
+        if (set.name == name) return set;
+#endif
+    throw Error(
+        fmt::format("unknown instruction set '{}'; known are sse2, sse4.2, avx, avx2 and avx512", name));
+}
+
+// The last message of Embree's error callback, for the exception that follows.
+struct DeviceErrors {
+    std::mutex mutex;
+    RTCError code = RTC_ERROR_NONE;
+    std::string message;
+};
+
+DeviceErrors& device_errors()
+{
+    static DeviceErrors errors;
+    return errors;
+}
+
+void on_device_error(void*, RTCError code, const char* message)
+{
+    DeviceErrors& errors = device_errors();
+    const std::lock_guard lock(errors.mutex);
+    errors.code = code;
+    errors.message = message ? message : "";
+}
+
+void throw_device_error(const char* doing)
+{
+    DeviceErrors& errors = device_errors();
+    const std::lock_guard lock(errors.mutex);
+    if (errors.code == RTC_ERROR_NONE) return;
+    const bool memory = errors.code == RTC_ERROR_OUT_OF_MEMORY;
+    const std::string message = errors.message;
+    errors.code = RTC_ERROR_NONE;
+    if (memory) throw Error(fmt::format("out of memory while {}", doing));
+    throw Error(fmt::format("Embree failed while {}: {}", doing, message));
+}
+
+RTCRay embree_ray(const Ray& ray)
+{
+    RTCRay r;
+    r.org_x = ray.origin.x;
+    r.org_y = ray.origin.y;
+    r.org_z = ray.origin.z;
+    r.tnear = std::max(ray.t_min, smallest_t);
+    r.dir_x = ray.direction.x;
+    r.dir_y = ray.direction.y;
+    r.dir_z = ray.direction.z;
+    r.time = 0.f;
+    r.tfar = ray.t_max;
+    r.mask = ~0u;
+    r.id = 0;
+    r.flags = 0;
+    return r;
+}
+
+Ray our_ray(const RTCRay& r)
+{
+    return {{r.org_x, r.org_y, r.org_z}, {r.dir_x, r.dir_y, r.dir_z}, r.tnear, r.tfar};
+}
+
+void init_context(RayQueryContext& context)
+{
+#if PLUMB_EMBREE_MAJOR >= 4
+    rtcInitRayQueryContext(&context);
+#else
+    rtcInitIntersectContext(&context);
+#endif
+}
+
+// The sphere as Embree's user geometry: tested in our own double-precision arithmetic, one ray at a time.
+template <class SphereGeometry>
+void sphere_bounds(const RTCBoundsFunctionArguments* args)
+{
+    const auto& sphere = *static_cast<const SphereGeometry*>(args->geometryUserPtr);
+    RTCBounds& b = *args->bounds_o;
+    const auto low = [&](float c) { return next_float(c - sphere.radius, false); };
+    const auto high = [&](float c) { return next_float(c + sphere.radius, true); };
+    b.lower_x = low(sphere.center.x);
+    b.lower_y = low(sphere.center.y);
+    b.lower_z = low(sphere.center.z);
+    b.upper_x = high(sphere.center.x);
+    b.upper_y = high(sphere.center.y);
+    b.upper_z = high(sphere.center.z);
+}
+
+template <class SphereGeometry>
+void sphere_intersect(const RTCIntersectFunctionNArguments* args)
+{
+    if (args->valid[0] == 0) return;
+    const auto& sphere = *static_cast<const SphereGeometry*>(args->geometryUserPtr);
+    auto& ray_hit = *reinterpret_cast<RTCRayHit*>(args->rayhit);
+    const std::optional<double> t = intersect_sphere(our_ray(ray_hit.ray), sphere.center, sphere.radius);
+    if (!t) return;
+    ray_hit.ray.tfar = static_cast<float>(*t);
+    ray_hit.hit.geomID = sphere.geometry;
+    ray_hit.hit.primID = args->primID;
+    ray_hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+}
+
+template <class SphereGeometry>
+void sphere_occluded(const RTCOccludedFunctionNArguments* args)
+{
+    if (args->valid[0] == 0) return;
+    const auto& sphere = *static_cast<const SphereGeometry*>(args->geometryUserPtr);
+    auto& ray = *reinterpret_cast<RTCRay*>(args->ray);
+    if (intersect_sphere(our_ray(ray), sphere.center, sphere.radius)) ray.tfar = -infinity;
+}
+
+} // namespace
+
+class Scene::Accel::Builder final : public AccelBuilder {
+public:
+    explicit Builder(Accel& accel) : accel_(accel) {}
+
+    void start_object(std::uint32_t object) { object_ = object; }
+
+    void add_triangles(std::span<const Vec3f> positions, std::span<const Triangle> triangles) override
+    {
+        RTCGeometry geometry = rtcNewGeometry(accel_.device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+        // Copied: Embree reads 4 bytes past the last vertex, which our vectors do not own.
+        void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                 sizeof(Vec3f), positions.size());
+        rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, triangles.data(), 0,
+                                   sizeof(Triangle), triangles.size());
+        if (vertices != nullptr) std::memcpy(vertices, positions.data(), positions.size_bytes());
+        attach(geometry);
+    }
+
+    void add_sphere(const Vec3f& center, float radius) override
+    {
+        const auto id = static_cast<std::uint32_t>(accel_.object_of_geometry_.size());
+        accel_.spheres_.push_back(std::make_unique<SphereGeometry>(SphereGeometry{center, radius, id}));
+        RTCGeometry geometry = rtcNewGeometry(accel_.device_, RTC_GEOMETRY_TYPE_USER);
+        rtcSetGeometryUserPrimitiveCount(geometry, 1);
+        rtcSetGeometryUserData(geometry, accel_.spheres_.back().get());
+        rtcSetGeometryBoundsFunction(geometry, sphere_bounds<SphereGeometry>, nullptr);
+        rtcSetGeometryIntersectFunction(geometry, sphere_intersect<SphereGeometry>);
+        rtcSetGeometryOccludedFunction(geometry, sphere_occluded<SphereGeometry>);
+        attach(geometry);
+    }
+
+private:
+    void attach(RTCGeometry geometry)
+    {
+        throw_device_error("building the scene");
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometryByID(accel_.scene_, geometry,
+                              static_cast<unsigned>(accel_.object_of_geometry_.size()));
+        rtcReleaseGeometry(geometry);
+        accel_.object_of_geometry_.push_back(object_);
+        throw_device_error("building the scene");
+    }
+
+    Accel& accel_;
+    std::uint32_t object_ = 0;
+};
+
+Scene::Accel::Accel(const std::vector<SceneObject>& objects, const std::string& instruction_set)
+{
+    const InstructionSet set = find_instruction_set(instruction_set);
+    if (!set.supported)
+        throw Error(
+            fmt::format("this processor cannot run Embree with {}; choose another with --isa", set.name));
+    device_ = rtcNewDevice(fmt::format("isa={}", set.embree_name).c_str());
+    if (device_ == nullptr) throw Error(fmt::format("Embree cannot start with instruction set {}", set.name));
+    rtcSetDeviceErrorFunction(device_, on_device_error, nullptr);
+
+    scene_ = rtcNewScene(device_);
+    rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST); // no holes along shared edges
+    rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_MEDIUM);
+    try {
+        Builder builder(*this);
+        for (std::uint32_t i = 0; i < objects.size(); ++i) {
+            builder.start_object(i);
+            objects[i].shape->add_to(builder);
+        }
+        rtcCommitScene(scene_);
+        throw_device_error("building the scene");
+    } catch (...) {
+        rtcReleaseScene(scene_);
+        rtcReleaseDevice(device_);
+        throw;
+    }
+}
+
+Scene::Accel::~Accel()
+{
+    rtcReleaseScene(scene_);
+    rtcReleaseDevice(device_);
+}
+
+std::optional<Scene::Accel::Hit> Scene::Accel::intersect(const Ray& ray) const
+{
+    RTCRayHit ray_hit;
+    ray_hit.ray = embree_ray(ray);
+    ray_hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    ray_hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+#if PLUMB_EMBREE_MAJOR >= 4
+    rtcIntersect1(scene_, &ray_hit);
+#else
+    RayQueryContext context;
+    init_context(context);
+    rtcIntersect1(scene_, &context, &ray_hit);
+#endif
+    if (ray_hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+    return Hit{object_of_geometry_[ray_hit.hit.geomID], ray_hit.hit.primID};
+}
+
+bool Scene::Accel::occluded(const Ray& ray) const
+{
+    RTCRay r = embree_ray(ray);
+#if PLUMB_EMBREE_MAJOR >= 4
+    rtcOccluded1(scene_, &r);
+#else
+    RayQueryContext context;
+    init_context(context);
+    rtcOccluded1(scene_, &context, &r);
+#endif
+    return r.tfar < 0.f;
+}
+
+std::string Scene::Accel::version() const
+{
+    const auto number = [this](RTCDeviceProperty property) {
+        return rtcGetDeviceProperty(device_, property);
+    };
+    return fmt::format("{}.{}.{}", number(RTC_DEVICE_PROPERTY_VERSION_MAJOR),
+                       number(RTC_DEVICE_PROPERTY_VERSION_MINOR), number(RTC_DEVICE_PROPERTY_VERSION_PATCH));
+}
+
+} // namespace plumb

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The acceleration structure: Embree behind a door. It says which primitive a ray meets first and nothing else;
+// where exactly is computed by the shape.
+
+#include "plumb/scene.h"
+
+struct RTCDeviceTy;
+struct RTCSceneTy;
+
+namespace plumb {
+
+class Scene::Accel {
+public:
+    struct Hit {
+        std::uint32_t object;    // index into the objects given
+        std::uint32_t primitive; // within that object
+    };
+
+    // Throws Error: an instruction set that this processor lacks, too little memory, or what Embree reports.
+    Accel(const std::vector<SceneObject>& objects, const std::string& instruction_set);
+    ~Accel();
+    Accel(const Accel&) = delete;
+    Accel& operator=(const Accel&) = delete;
+
+    std::optional<Hit> intersect(const Ray& ray) const;
+    bool occluded(const Ray& ray) const;
+    std::string version() const;
+
+private:
+    class Builder;
+    struct SphereGeometry {
+        Vec3f center;
+        float radius;
+        std::uint32_t geometry;
+    };
+
+    RTCDeviceTy* device_ = nullptr;
+    RTCSceneTy* scene_ = nullptr;
+    std::vector<std::uint32_t> object_of_geometry_;
+    std::vector<std::unique_ptr<SphereGeometry>> spheres_;
+};
+
+} // namespace plumb

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+
+#include "plumb/scene.h"
+
+#include "scene/accel.h"
+
+namespace plumb {
+namespace {
+
+SceneSphere bounding_sphere(const Box3f& bounds)
+{
+    if (bounds.isEmpty()) return {};
+    return {bounds.center(), length(bounds.size()) * 0.5f};
+}
+
+} // namespace
+
+Scene::Scene(std::vector<SceneObject> objects, std::vector<std::unique_ptr<Emitter>> lights,
+             const SceneOptions& options)
+    : options_(options), objects_(std::move(objects)), lights_(std::move(lights))
+{
+    const SceneSphere sphere = bounding_sphere(bounds());
+    const auto add_emitter = [&](Emitter& emitter) {
+        emitter.prepare(sphere);
+        const auto index = static_cast<std::uint32_t>(emitters_.size());
+        emitters_.push_back(&emitter);
+        if (emitter.is_delta())
+            delta_.push_back(index);
+        else if (emitter.is_infinite())
+            infinite_.push_back(index);
+        return index;
+    };
+    for (const SceneObject& object : objects_)
+        emitter_of_object_.push_back(object.emitter ? add_emitter(*object.emitter) : 0);
+    for (const auto& light : lights_) add_emitter(*light);
+
+    std::vector<double> powers;
+    std::vector<double> delta_powers;
+    for (const Emitter* emitter : emitters_) powers.push_back(emitter->power());
+    for (const std::uint32_t index : delta_) delta_powers.push_back(powers[index]);
+    choice_ = DiscreteDistribution(powers);
+    delta_choice_ = DiscreteDistribution(delta_powers);
+
+    accel_ = std::make_unique<Accel>(objects_, options_.instruction_set);
+}
+
+Scene::Scene(Scene&&) noexcept = default;
+Scene& Scene::operator=(Scene&&) noexcept = default;
+Scene::~Scene() = default;
+
+std::optional<SurfacePoint> Scene::intersect(const Ray& ray) const
+{
+    const std::optional<Accel::Hit> hit = accel_->intersect(ray);
+    if (!hit) return std::nullopt;
+    const SceneObject& object = objects_[hit->object];
+    SurfacePoint point = object.shape->surface_at(ray, hit->primitive);
+    point.primitive = hit->primitive;
+    point.shape = object.shape.get();
+    point.bsdf = object.bsdf.get();
+    point.emitter = object.emitter.get();
+    point.emitter_index = emitter_of_object_[hit->object];
+    return point;
+}
+
+bool Scene::occluded(const Ray& ray) const
+{
+    return accel_->occluded(ray);
+}
+
+Ray Scene::shadow_ray(const SurfacePoint& from, const EmitterSample& light)
+{
+    if (light.distance == infinity) return from.spawn_ray(light.wi);
+    // Both ends are moved off their surfaces towards each other; what lies strictly between them is in the way.
+    const Vec3f origin = offset_origin(from.position, from.error, from.geometric_normal, light.wi);
+    const Vec3f target = offset_origin(light.position, light.error, light.normal, -light.wi);
+    return {origin, target - origin, 0.f, one_minus_epsilon};
+}
+
+std::optional<LightSample> Scene::sample_emitter(const Vec3f& from, double u_choice, Vec2f u,
+                                                 Measure measure) const
+{
+    if (!choice_.can_sample()) return std::nullopt;
+    const DiscreteDistribution::Choice choice = choice_.sample(u_choice);
+    const Emitter& emitter = *emitters_[choice.index];
+    const std::optional<EmitterSample> sample = emitter.sample(from, choice.u, u, measure);
+    if (!sample) return std::nullopt;
+    LightSample light{*sample, &emitter};
+    light.pdf *= choice.probability;
+    // Infinite emitters overlap: the direction brings light from all of them, and any could have chosen it.
+    if (infinite_.size() > 1 && emitter.is_infinite() && !emitter.is_delta()) {
+        const EmitterValue all = emission(from, light.wi, nullptr, measure);
+        light.radiance = all.radiance;
+        light.pdf = all.pdf;
+    }
+    return light;
+}
+
+std::optional<LightSample> Scene::sample_delta_emitter(const Vec3f& from, double u_choice, Vec2f u) const
+{
+    if (!delta_choice_.can_sample()) return std::nullopt;
+    const DiscreteDistribution::Choice choice = delta_choice_.sample(u_choice);
+    const Emitter& emitter = *emitters_[delta_[choice.index]];
+    const std::optional<EmitterSample> sample = emitter.sample(from, choice.u, u, Measure::best);
+    if (!sample) return std::nullopt;
+    LightSample light{*sample, &emitter};
+    light.pdf *= choice.probability;
+    return light;
+}
+
+EmitterValue Scene::emission(const Vec3f& from, const Vec3f& wi, const SurfacePoint* hit,
+                             Measure measure) const
+{
+    if (hit != nullptr) {
+        if (hit->emitter == nullptr) return {};
+        EmitterValue value = hit->emitter->evaluate(from, wi, hit, measure);
+        value.pdf *= choice_.probability(hit->emitter_index);
+        return value;
+    }
+    EmitterValue sum;
+    for (const std::uint32_t index : infinite_) {
+        const EmitterValue value = emitters_[index]->evaluate(from, wi, nullptr, measure);
+        sum.radiance += value.radiance;
+        sum.pdf += value.pdf * choice_.probability(index);
+    }
+    return sum;
+}
+
+Box3f Scene::bounds() const
+{
+    Box3f bounds;
+    for (const SceneObject& object : objects_) bounds.extendBy(object.shape->bounds());
+    return bounds;
+}
+
+std::uint64_t Scene::triangle_count() const
+{
+    std::uint64_t count = 0;
+    for (const SceneObject& object : objects_) count += object.shape->triangle_count();
+    return count;
+}
+
+std::string Scene::embree_version() const
+{
+    return accel_->version();
+}
+
+} // namespace plumb

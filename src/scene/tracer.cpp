@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+
+#include "plumb/tracer.h"
+
+#include <fmt/format.h>
+
+namespace plumb {
+namespace {
+
+std::string text(const Vec3f& v)
+{
+    return fmt::format("({:.6g} {:.6g} {:.6g})", v.x, v.y, v.z);
+}
+
+const char* name_of(RayKind kind)
+{
+    switch (kind) {
+    case RayKind::camera: return "camera";
+    case RayKind::bounce: return "bounce";
+    case RayKind::shadow: return "shadow";
+    }
+    return "";
+}
+
+} // namespace
+
+RayCounts& RayCounts::operator+=(const RayCounts& other)
+{
+    camera += other.camera;
+    bounce += other.bounce;
+    shadow += other.shadow;
+    return *this;
+}
+
+std::optional<SurfacePoint> Tracer::intersect(const Ray& ray, RayKind kind)
+{
+    ++(kind == RayKind::camera ? counts_.camera : kind == RayKind::bounce ? counts_.bounce : counts_.shadow);
+    const std::optional<SurfacePoint> hit = scene_.intersect(ray);
+    if (logging()) {
+        log(PathEvent::Kind::ray,
+            fmt::format("{} ray from {} along {}", name_of(kind), text(ray.origin), text(ray.direction)));
+        if (hit) {
+            std::string object = "surface";
+            for (const SceneObject& candidate : scene_.objects())
+                if (candidate.shape.get() == hit->shape) object = candidate.name;
+            log(PathEvent::Kind::hit,
+                fmt::format("meets {} (primitive {}) at {}, distance {:.6g}, normal {}, shading normal {}, "
+                            "uv ({:.6g} {:.6g})",
+                            object, hit->primitive, text(hit->position), length(hit->position - ray.origin),
+                            text(hit->geometric_normal), text(hit->shading.n), hit->uv.x, hit->uv.y));
+        } else {
+            log(PathEvent::Kind::escape, "leaves the scene");
+        }
+    }
+    return hit;
+}
+
+bool Tracer::occluded(const Ray& ray)
+{
+    ++counts_.shadow;
+    return scene_.occluded(ray);
+}
+
+bool Tracer::visible(const SurfacePoint& from, const EmitterSample& light)
+{
+    return !occluded(Scene::shadow_ray(from, light));
+}
+
+void Tracer::log(PathEvent::Kind kind, std::string text)
+{
+    if (log_ != nullptr) log_->push_back({kind, std::move(text)});
+}
+
+void Tracer::log_contribution(PathEvent::Kind kind, const char* what, const Color& contribution)
+{
+    if (log_ != nullptr)
+        log_->push_back({kind, fmt::format("{} adds ({:.6g} {:.6g} {:.6g})", what, contribution.r,
+                                           contribution.g, contribution.b)});
+}
+
+} // namespace plumb
