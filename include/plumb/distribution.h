@@ -27,7 +27,8 @@ public:
     double sum() const { return sum_; }
     bool can_sample() const { return sum_ > 0.0; }
 
-    // u in [0, 1). Never chooses a thing of weight 0. Needs can_sample().
+    // u in [0, 1). Never chooses a thing of weight 0, nor one whose share of the sum is below 2^-53, the step of u:
+    // the probability of what is chosen is positive. Needs can_sample().
     Choice sample(double u) const;
     float probability(std::size_t index) const { return static_cast<float>(cdf_[index + 1] - cdf_[index]); }
 

@@ -11,6 +11,7 @@
 
 #include "plumb/color.h"
 #include "plumb/image.h"
+#include "plumb/sampler.h"
 
 #include <cstdint>
 #include <optional>
@@ -22,7 +23,7 @@ namespace plumb {
 enum class Verdict { accepted, not_finite, negative, out_of_range };
 
 inline constexpr float film_max_value = 0x1p37f;
-inline constexpr std::uint64_t film_max_samples = std::uint64_t{1} << 26;
+inline constexpr std::uint64_t film_max_samples = max_samples_per_pixel;
 inline constexpr std::size_t film_bytes_per_pixel = 64;
 
 class Film {

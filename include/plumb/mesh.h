@@ -23,10 +23,14 @@ struct MeshData {
 };
 
 // Reads v, vt, vn and f; everything else is skipped. Triangles, quads (a b c d becomes a b c, a c d) and polygons,
-// negative indices, LF and CRLF line ends. Vertices are shared where the triple of indices is equal. Normals (uvs)
-// are kept if every face corner has one; if only some have, they are dropped and `warning` says so.
-// Throws FileError with file, line and column: unreadable or non-finite numbers, indices out of range, faces with
-// fewer than three corners, no faces at all; Error if the file cannot be read.
+// also concave ones; negative indices, LF and CRLF line ends. Vertices are shared where the triple of indices is
+// equal; those that no triangle uses are dropped. `warning` says so where
+// - triangles have no area: they are left out;
+// - some face corners have a normal and others none, or one of length zero: those get their face's normal;
+// - some face corners have texture coordinates and others none: then all are left out.
+// Throws FileError with file, line and column: unreadable, non-finite or huge numbers (above 1e18), indices out of
+// range, faces with fewer than three corners, lines continued with a backslash; Error if the file cannot be read or
+// holds no face with an area.
 MeshData read_obj(const std::filesystem::path& path);
 
 } // namespace plumb

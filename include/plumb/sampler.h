@@ -9,6 +9,9 @@
 
 namespace plumb {
 
+// More than anybody asked for; what the film can add up without wrapping (film.h).
+inline constexpr std::uint64_t max_samples_per_pixel = std::uint64_t{1} << 26;
+
 // A sample is a point in a space of as many dimensions as a path asks for. Its coordinates are a pure function of
 // (seed, pixel, sample index, dimension): whatever was drawn before start() has no influence. Numbers lie in [0, 1).
 class Sampler {

@@ -4,6 +4,7 @@
 // Reading a scene file.
 
 #include "plumb/dialect.h"
+#include "plumb/error.h"
 #include "plumb/render.h"
 
 #include <map>
@@ -24,6 +25,7 @@ struct LoadOptions {
     std::optional<std::string> sampler;
     std::optional<std::uint64_t> samples_per_pixel;
     std::optional<Vec2i> resolution;
+    std::optional<std::uint64_t> kept_pixels; // of a crop: only these must fit into memory
     std::string instruction_set = "avx2";
     bool lenient = false; // unknown parameters are warnings
 };

@@ -4,7 +4,6 @@
 
 #include "interfaces/plugin.h"
 
-#include "plumb/film.h"
 #include "plumb/sampler.h"
 
 #include <array>
@@ -43,8 +42,8 @@ Words philox(Words counter, std::uint64_t key)
 class IndependentSampler final : public Sampler {
 public:
     explicit IndependentSampler(const Params& params)
-        : samples_per_pixel_(static_cast<std::uint64_t>(
-              params.integer("sampleCount", 1, Range::closed(1.0, static_cast<double>(film_max_samples)))))
+        : samples_per_pixel_(static_cast<std::uint64_t>(params.integer(
+              "sampleCount", 1, Range::closed(1.0, static_cast<double>(max_samples_per_pixel)))))
     {}
 
     std::unique_ptr<Sampler> clone() const override { return std::make_unique<IndependentSampler>(*this); }

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+
+// [1] Walter, Marschner, Li and Torrance 2007, "Microfacet Models for Refraction through Rough Surfaces".
+
+#include "bsdfs/refraction_indices.h"
+#include "bsdfs/rough_reflection.h"
+#include "interfaces/plugin.h"
+#include "plumb/bsdf.h"
+#include "plumb/sampling.h"
+
+namespace plumb {
+
+/// A glossy plastic: a diffuse base and dielectric Beckmann microfacets, on the front side.
+///
+/// f = kd / pi + ks D(wh) F(wh . wi) G(wi, wo, wh) / (4 cos_i cos_o) with ks = 1 - max(kd); D and G after [Walter et
+/// al. 2007], equations 25 and 27, F the exact dielectric reflectance.
+///
+///     alpha    float   roughness, in (0, 1]; less than 0.0001 counts as 0.0001   (default 0.1)
+///     intIOR   float   index of refraction inside, in [0.01, 100]                (default 1.5046)
+///     extIOR   float   index of refraction outside, in [0.01, 100]               (default 1.000277)
+///     kd       color   albedo of the diffuse base, in [0, 1]                     (default 0.5)
+///
+///         <bsdf type="microfacet">
+///             <float name="alpha" value="0.2"/>
+///             <color name="kd" value="0.2 0.2 0.4"/>
+///         </bsdf>
+class Microfacet final : public Bsdf {
+public:
+    explicit Microfacet(const Params& params)
+        : microfacets_(std::max(params.number("alpha", 0.1f, Range::positive_to(1.0)), min_alpha)),
+          eta_(RefractionIndices(params).eta()),
+          kd_(params.color("kd", Color(0.5f), Range::closed(0.0, 1.0))),
+          ks_(1.f - max_component(kd_))
+    {}
+
+    Lobes lobes() const override { return Lobe::diffuse_reflection | Lobe::glossy_reflection; }
+
+    BsdfValue evaluate(const SurfacePoint&, const Vec3f& wi, const Vec3f& wo) const override
+    {
+        if (!(wi.z > 0.f && wo.z > 0.f)) return {};
+        const auto [cos_h, dg_cos, glossy_pdf] = rough_reflection(microfacets_, wi, wo);
+        const float fresnel = fresnel_dielectric(cos_h, eta_).reflectance;
+        const float diffuse_pdf = cosine_hemisphere_pdf(wo);
+        const float pdf = ks_ * glossy_pdf + (1.f - ks_) * diffuse_pdf;
+        if (!(pdf > 0.f)) return {};
+        return {kd_ * diffuse_pdf + Color(ks_ * fresnel * dg_cos), pdf};
+    }
+
+    // Either lobe is black where its chance, ks or 1 - ks, is 0.
+    std::optional<BsdfSample> sample(const SurfacePoint& at, const Vec3f& wi, float u_lobe,
+                                     Vec2f u) const override
+    {
+        if (!(wi.z > 0.f)) return std::nullopt;
+        const bool glossy = u_lobe < ks_;
+        const Vec3f wo = glossy ? reflect(wi, microfacets_.sample(u)) : square_to_cosine_hemisphere(u);
+        const auto [f_cos, pdf] = evaluate(at, wi, wo);
+        if (!(pdf > 0.f)) return std::nullopt;
+        return BsdfSample{wo, f_cos / pdf, pdf, glossy ? Lobe::glossy_reflection : Lobe::diffuse_reflection,
+                          1.f};
+    }
+
+private:
+    Beckmann microfacets_;
+    float eta_;
+    Color kd_;
+    float ks_;
+};
+
+template std::unique_ptr<Bsdf> build<Microfacet>(const Params&);
+
+} // namespace plumb

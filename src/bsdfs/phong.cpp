@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+
+// [1] Lafortune and Willems 1994, "Using the Modified Phong Reflectance Model for Physically Based Rendering".
+
+#include "interfaces/plugin.h"
+#include "plumb/bsdf.h"
+#include "plumb/elementary.h"
+#include "plumb/frame.h"
+#include "plumb/sampling.h"
+
+namespace plumb {
+
+/// The modified Phong model [Lafortune and Willems 1994] on the front side: a diffuse base and a cosine-power lobe.
+///
+/// f = kd / pi + ks (n + 2) / (2 pi) max(0, cos(a))^n, where a is the angle between wi and the mirrored wo; n = 0
+/// is diffuse. If a channel of kd + ks is above 1, both are multiplied by 0.99 / max(kd + ks).
+///
+///     diffuse-coefficients    color     kd, at least 0          (default 0)
+///     specular-coefficients   color     ks, at least 0          (default 1)
+///     exponent                integer   n, in [0, 100000000]    (default 1)
+///
+///         <bsdf type="phong">
+///             <color name="diffuse-coefficients" value="0.2 0.2 0.2"/>
+///             <color name="specular-coefficients" value="0.6 0.6 0.6"/>
+///             <integer name="exponent" value="50"/>
+///         </bsdf>
+class Phong final : public Bsdf {
+public:
+    explicit Phong(const Params& params)
+        : kd_(params.color("diffuse-coefficients", Color(0.f))),
+          ks_(params.color("specular-coefficients", Color(1.f))),
+          exponent_(static_cast<float>(params.integer("exponent", 1, Range::closed(0.0, 1e8))))
+    {
+        const float largest = max_component(kd_ + ks_);
+        if (largest > 1.f) {
+            kd_ *= 0.99f / largest;
+            ks_ *= 0.99f / largest;
+        }
+        if (exponent_ == 0.f) {
+            kd_ += ks_;
+            ks_ = Color(0.f);
+        }
+        const float diffuse = luminance(kd_);
+        const float glossy = luminance(ks_);
+        glossy_chance_ = glossy > 0.f ? glossy / (glossy + diffuse) : 0.f;
+    }
+
+    Lobes lobes() const override { return Lobe::diffuse_reflection | Lobe::glossy_reflection; }
+
+    BsdfValue evaluate(const SurfacePoint&, const Vec3f& wi, const Vec3f& wo) const override
+    {
+        if (!(wi.z > 0.f && wo.z > 0.f)) return {};
+        const float lobe = lobe_pdf(wi, wo);
+        const float diffuse_pdf = cosine_hemisphere_pdf(wo);
+        const float pdf = lerp(diffuse_pdf, lobe, glossy_chance_);
+        if (!(pdf > 0.f)) return {};
+        // [1], section 3: the lobe's factor is (n + 2) / (2 pi), that of its density (n + 1) / (2 pi).
+        const float normalisation = (exponent_ + 2.f) / (exponent_ + 1.f);
+        return {kd_ * diffuse_pdf + ks_ * (normalisation * lobe * wo.z), pdf};
+    }
+
+    // Either lobe is black where its chance is 0.
+    std::optional<BsdfSample> sample(const SurfacePoint& at, const Vec3f& wi, float u_lobe,
+                                     Vec2f u) const override
+    {
+        if (!(wi.z > 0.f)) return std::nullopt;
+        const bool glossy = u_lobe < glossy_chance_;
+        const Vec3f wo = glossy ? Frame(mirrored(wi)).to_world(square_to_cosine_power(u, exponent_))
+                                : square_to_cosine_hemisphere(u);
+        const auto [f_cos, pdf] = evaluate(at, wi, wo);
+        if (!(pdf > 0.f)) return std::nullopt;
+        return BsdfSample{wo, f_cos / pdf, pdf, glossy ? Lobe::glossy_reflection : Lobe::diffuse_reflection,
+                          1.f};
+    }
+
+private:
+    static Vec3f mirrored(const Vec3f& w) { return {-w.x, -w.y, w.z}; }
+
+    // (n + 1) / (2 pi) cos(a)^n, in double precision: rounding errors of the cosine grow n-fold.
+    float lobe_pdf(const Vec3f& wi, const Vec3f& wo) const
+    {
+        const Vec3d axis(mirrored(wi));
+        const Vec3d w(wo);
+        const double cosine = dot(axis, w) / std::sqrt(length_squared(axis) * length_squared(w));
+        if (!(cosine > 0.0)) return 0.f;
+        const double n = exponent_;
+        return static_cast<float>((n + 1.0) / (2.0 * pi_d) * exp(n * log(cosine)));
+    }
+
+    Color kd_;
+    Color ks_;
+    float exponent_;
+    float glossy_chance_ = 0.f;
+};
+
+template std::unique_ptr<Bsdf> build<Phong>(const Params&);
+
+} // namespace plumb

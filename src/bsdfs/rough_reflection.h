@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Reflection by Beckmann microfacets, which the rough BSDFs share; Fresnel is theirs to multiply.
+//
+// [1] Walter, Marschner, Li and Torrance 2007, "Microfacet Models for Refraction through Rough Surfaces".
+
+#include "plumb/fresnel.h"
+#include "plumb/microfacet.h"
+#include "plumb/texture.h"
+
+namespace plumb {
+
+// The smallest roughness that single precision renders well. Smaller ones count as this.
+inline constexpr float min_alpha = 1e-4f;
+
+inline Beckmann beckmann_at(const Texture& alpha, const Vec2f& uv)
+{
+    return Beckmann(std::max(alpha.scalar(uv), min_alpha));
+}
+
+struct RoughReflection {
+    float cos_h;  // wi . wh = wo . wh, signed like wi.z: what Fresnel's equations take
+    float dg_cos; // D G |cos_o| / (4 |cos_i cos_o|): times Fresnel, [1], equation 20, with the cosine
+    float pdf;    // D wh.z / (4 |wo . wh|), [1], equations 14 and 24
+};
+
+// wi and wo lie on one side of the surface.
+inline RoughReflection rough_reflection(const Beckmann& microfacets, const Vec3f& wi, const Vec3f& wo)
+{
+    // [1], equation 13. The length of the sum is twice the cosine, whichever way light goes; the bound keeps the
+    // density finite where both directions graze the surface.
+    const Vec3d sum = Vec3d(wi) + Vec3d(wo);
+    const double sum_length = std::max(length(sum), 2e-20);
+    const Vec3f wh(sum * (std::copysign(1.0, sum.z) / sum_length));
+    const float cos_h = static_cast<float>(0.5 * sum_length);
+
+    const float d = microfacets.d(wh);
+    const float g_over_cosine = microfacets.g(wi, wo, wh) / (4.f * std::abs(wi.z));
+    return {std::copysign(cos_h, wi.z), d * g_over_cosine, d * wh.z / (4.f * cos_h)};
+}
+
+} // namespace plumb

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// One function a verb. They print; they throw UsageError, or Error and SceneError for what is wrong with the input.
+
+#include "cli/options.h"
+
+namespace plumb {
+
+void render_command(const Options& options);
+void types_command(const Options& options);
+void info_command(const Options& options);
+void replay_command(const Options& options);
+
+// Loads the scene that the options name, and logs its dialect and its warnings unless --quiet.
+LoadedScene load_and_log(const Options& options);
+
+} // namespace plumb

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#include "cli/console.h"
+
+#include "plumb/error.h"
+
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fcntl.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+namespace plumb {
+
+namespace {
+
+int output_problem = 0; // errno of the first write to standard output that failed
+
+void write_all(std::FILE* stream, std::string_view text, int& problem)
+{
+    if (text.empty()) return;
+    errno = 0;
+    if (std::fwrite(text.data(), 1, text.size(), stream) != text.size() && problem == 0)
+        problem = errno ? errno : EIO;
+}
+
+void write_error(std::string_view text)
+{
+    int ignored = 0; // there is nowhere to complain
+    write_all(stderr, text, ignored);
+}
+
+} // namespace
+
+void prepare_console()
+{
+    std::signal(SIGPIPE, SIG_IGN);
+    for (const int stream : {0, 1, 2}) {
+        if (fcntl(stream, F_GETFD) != -1) continue;
+        // open() takes the lowest number that is free. Read-only: writing still fails, as it should.
+        if (open("/dev/null", O_RDONLY) != stream) return;
+    }
+}
+
+void print_log(std::string_view text)
+{
+    write_error(std::string(text) + "\n");
+}
+
+void print_output(std::string_view text)
+{
+    write_all(stdout, text, output_problem);
+}
+
+void finish_output()
+{
+    errno = 0;
+    if (std::fflush(stdout) != 0 && output_problem == 0) output_problem = errno ? errno : EIO;
+    // Whoever closed the pipe has read enough.
+    if (output_problem != 0 && output_problem != EPIPE)
+        throw Error(std::string("cannot write to standard output: ") + std::strerror(output_problem));
+}
+
+bool log_is_terminal()
+{
+    const char* terminal = std::getenv("TERM");
+    return isatty(STDERR_FILENO) == 1 && terminal && std::string_view(terminal) != "dumb";
+}
+
+int terminal_columns()
+{
+    winsize size{};
+    if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return 80;
+    return size.ws_col;
+}
+
+void redraw_line(std::string_view text)
+{
+    write_error("\r" + std::string(text) + "\033[K");
+}
+
+} // namespace plumb

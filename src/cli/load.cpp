@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include "cli/commands.h"
+#include "cli/console.h"
+#include "cli/text.h"
+
+#include <fmt/format.h>
+
+namespace plumb {
+
+namespace {
+
+std::string point_text(const Vec3f& p)
+{
+    return fmt::format("({}, {}, {})", p.x, p.y, p.z);
+}
+
+void log_facts(const Options& options, const LoadedScene& loaded)
+{
+    const Scene& scene = loaded.job.scene;
+    const Vec2i resolution = loaded.job.camera->resolution();
+    const Box3f bounds = scene.bounds();
+    print_log(fmt::format("scene: objects {}, triangles {}, emitters {}", scene.objects().size(),
+                          scene.triangle_count(), scene.emitters().size()));
+    if (!bounds.isEmpty())
+        print_log(fmt::format("bounds: {} to {}", point_text(bounds.min), point_text(bounds.max)));
+    print_log(fmt::format("picture: {} x {} pixels, {} samples each, seed {}", resolution.x, resolution.y,
+                          loaded.job.sampler->samples_per_pixel(), options.render.seed));
+    print_log(fmt::format("integrator: {}; sampler: {}", loaded.integrator, loaded.sampler));
+    print_log(fmt::format(
+        "readings: emitters {}, mirror {}, point lights in {}, environment images {}times {}",
+        loaded.dialect.emitters_absorb ? "absorb" : "scatter", loaded.dialect.mirrored_view ? "on" : "off",
+        loaded.dialect.point_takes_power ? "power" : "radiance",
+        loaded.dialect.environment_flipped ? "flipped and " : "", loaded.dialect.environment_scale));
+    print_log(fmt::format("embree: {}, {}", scene.embree_version(), scene.options().instruction_set));
+    print_log(fmt::format("inputs: read in {}, built in {}, hash {}", duration_text(loaded.parse_seconds),
+                          duration_text(loaded.build_seconds), loaded.input_hash));
+}
+
+} // namespace
+
+LoadedScene load_and_log(const Options& options)
+{
+    const std::filesystem::path path(options.subject);
+    std::error_code ignored;
+    if (!std::filesystem::exists(path, ignored)) {
+        const std::string_view verb = closest_verb(options.subject);
+        throw Error(verb.empty() ? fmt::format("there is no scene file '{}'", options.subject)
+                                 : fmt::format("there is no scene file '{}'; did you mean the verb '{}'?",
+                                               options.subject, verb));
+    }
+    LoadedScene scene = load_scene(path, options.load);
+    if (options.quiet) return scene;
+    for (const Diagnostic& warning : scene.warnings) print_log(warning.text());
+    print_log(fmt::format("dialect: {} ({})", to_string(scene.dialect.name), scene.dialect.reason));
+    if (options.verbose) log_facts(options, scene);
+    return scene;
+}
+
+} // namespace plumb

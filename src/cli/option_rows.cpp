@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+#include "cli/option_rows.h"
+
+#include "cli/values.h"
+
+#include <fmt/format.h>
+
+namespace plumb {
+
+namespace {
+
+constexpr unsigned verb_bit(Verb verb)
+{
+    return 1u << static_cast<unsigned>(verb);
+}
+
+constexpr unsigned render_only = verb_bit(Verb::render);
+constexpr unsigned replay_only = verb_bit(Verb::replay);
+constexpr unsigned both = render_only | replay_only;
+constexpr unsigned every_verb = both | verb_bit(Verb::types) | verb_bit(Verb::info);
+
+using Name = std::string_view;
+using Text = const std::string&;
+
+std::vector<std::string_view> dialect_words()
+{
+    std::vector<std::string_view> words = {"auto"};
+    for (const DialectName dialect : all_dialects) words.push_back(to_string(dialect));
+    return words;
+}
+
+void define(Options& options, Name name, Text text)
+{
+    const auto [variable, value] = parse_definition(name, text);
+    if (!options.load.definitions.emplace(variable, value).second)
+        throw UsageError(fmt::format("{} {} is given twice", name, variable));
+}
+
+// Every option, in the order of --help.
+const OptionRow rows[] = {
+    {Topic::output, render_only, "-o,--output", "FILE",
+     "write this image: .exr, .hdr, .tif, .png or .jpg; may be given\n"
+     "several times (default SCENE_SPP.exr and .png in this folder)",
+     [](Options& o, Name, Text t) { o.outputs.push_back(t); }, true},
+    {Topic::output, render_only, "--exposure", "EV", "multiply .png and .jpg by 2^EV (default 0)",
+     [](Options& o, Name n, Text t) { o.exposure = parse_number(n, t, -100.f, 100.f); }},
+    {Topic::output, render_only, "--json", "FILE", "write a report of the run; - is standard output",
+     [](Options& o, Name, Text t) { o.json = t; }},
+
+    {Topic::picture, both, "--spp", "N", "samples per pixel (default: the scene's)",
+     [](Options& o, Name n, Text t) { o.load.samples_per_pixel = parse_integer(n, t, 1, film_max_samples); }},
+    {Topic::picture, both, "--seed", "N", "of the random numbers, 64 bits (default 0)",
+     [](Options& o, Name n, Text t) { o.render.seed = parse_integer(n, t, 0, UINT64_MAX); }},
+    {Topic::picture, both, "--size", "WxH", "resolution (default: the scene's)",
+     [](Options& o, Name n, Text t) { o.load.resolution = parse_size(n, t); }},
+    {Topic::picture, render_only, "--crop", "X,Y,W,H", "render this part only; same bits as in the whole",
+     [](Options& o, Name n, Text t) { o.render.crop = parse_rectangle(n, t); }},
+    {Topic::picture, both, "--integrator", "TYPE", "instead of the scene's, with default parameters",
+     [](Options& o, Name, Text t) { o.load.integrator = t; }},
+    {Topic::picture, both, "--sampler", "TYPE", "instead of the scene's",
+     [](Options& o, Name, Text t) { o.load.sampler = t; }},
+
+    {Topic::scene, both, "-D,--define", "NAME=VALUE", "value of $NAME in the scene file; may be repeated",
+     define, true},
+    {Topic::scene, both, "--dialect", "NAME", "auto, plumb, epfl, eth, zaragoza or mcgill (default auto)",
+     [](Options& o, Name n, Text t) {
+         o.load.dialect = dialect_from_string(parse_word(n, t, dialect_words()));
+     }},
+    {Topic::scene, both, "--emitters", "WHAT", "scatter or absorb the light that meets them",
+     [](Options& o, Name n, Text t) {
+         o.load.emitters_absorb = parse_word(n, t, {"scatter", "absorb"}) == "absorb";
+     }},
+    {Topic::scene, both, "--mirror", "on|off", "flop the picture left to right",
+     [](Options& o, Name n, Text t) {
+         o.load.mirrored_view = parse_word(n, t, {"on", "off"}) == "on";
+     }},
+    {Topic::scene, both, "--envmap-scale", "X", "multiply environment images by X",
+     [](Options& o, Name n, Text t) { o.load.environment_scale = parse_number(n, t, 0.f, 1e30f); }},
+    {Topic::scene, both, "--lenient", "", "unknown parameters are warnings, not errors",
+     [](Options& o, Name, Text) { o.load.lenient = true; }},
+
+    {Topic::running, render_only, "-t,--threads", "N", "how many (default: all there are)",
+     [](Options& o, Name n, Text t) { o.render.threads = static_cast<int>(parse_integer(n, t, 1, 1024)); }},
+    {Topic::running, both, "--isa", "NAME", "of Embree: sse2, sse4.2, avx, avx2 or avx512 (default avx2)",
+     [](Options& o, Name n, Text t) {
+         o.load.instruction_set = parse_word(n, t, {"sse2", "sse4.2", "avx", "avx2", "avx512"});
+     }},
+    {Topic::running, both, "--quiet", "", "print nothing but errors",
+     [](Options& o, Name, Text) { o.quiet = true; }},
+    {Topic::running, both, "--verbose", "", "print facts about the scene",
+     [](Options& o, Name, Text) { o.verbose = true; }},
+
+    {Topic::path, replay_only, "--pixel", "X,Y", "the pixel, counted from the upper left corner",
+     [](Options& o, Name n, Text t) { o.pixel = parse_pixel(n, t); }},
+    {Topic::path, replay_only, "--sample", "I", "which of its samples, counted from 0",
+     [](Options& o, Name n, Text t) { o.sample = parse_integer(n, t, 0, UINT64_MAX); }},
+
+    {Topic::about, render_only, "--version", "", "print the version",
+     [](Options& o, Name, Text) { o.version = true; }},
+    {Topic::about, every_verb, "-h,--help", "", "print this", [](Options& o, Name, Text) { o.help = true; }},
+};
+
+} // namespace
+
+std::string_view OptionRow::long_name() const
+{
+    const std::string_view all = names;
+    return all.substr(all.rfind(',') + 1); // npos + 1 is 0
+}
+
+bool OptionRow::goes_with(Verb verb) const
+{
+    return (verbs & verb_bit(verb)) != 0;
+}
+
+bool OptionRow::changes_scene() const
+{
+    return goes_with(Verb::replay) &&
+           (topic == Topic::scene || topic == Topic::picture || long_name() == "--isa");
+}
+
+std::span<const OptionRow> option_rows()
+{
+    return rows;
+}
+
+std::string help_text(Verb verb)
+{
+    std::string text;
+    switch (verb) {
+    case Verb::render:
+        text =
+            "usage: renderer SCENE [-o IMAGE]... [options]          render a picture\n"
+            "       renderer types [NAME]                           list all plugins, or print one's manual\n"
+            "       renderer info IMAGE                             print what an image's header says\n"
+            "       renderer replay SCENE --pixel X,Y --sample I    print the path of one sample\n"
+            "A scene file that is called like a verb is given as ./types.\n";
+        break;
+    case Verb::types: text = "usage: renderer types [NAME]\n"; break;
+    case Verb::info: text = "usage: renderer info IMAGE\n"; break;
+    case Verb::replay: text = "usage: renderer replay SCENE --pixel X,Y --sample I [options]\n"; break;
+    }
+    for (const OptionRow& row : rows) {
+        if (!row.goes_with(verb)) continue;
+        if (&row == rows || row.topic != (&row - 1)->topic) text += "\n";
+        std::string names = row.names;
+        names = names.starts_with("--") ? "    " + names : names.replace(2, 1, ", ");
+        std::string_view help = row.help;
+        text += fmt::format("  {:<24} {}\n", names + " " + row.value, help.substr(0, help.find('\n')));
+        while (help.find('\n') != std::string_view::npos) {
+            help.remove_prefix(help.find('\n') + 1);
+            text += fmt::format("  {:<24} {}\n", "", help.substr(0, help.find('\n')));
+        }
+    }
+    return text;
+}
+
+} // namespace plumb

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+#include "cli/options.h"
+
+#include "cli/option_rows.h"
+#include "cli/text.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace plumb {
+
+namespace {
+
+constexpr std::pair<std::string_view, Verb> verb_names[] = {
+    {"types", Verb::types}, {"info", Verb::info}, {"replay", Verb::replay}};
+
+std::string_view name_of(Verb verb)
+{
+    for (const auto& [name, value] : verb_names)
+        if (value == verb) return name;
+    return "rendering";
+}
+
+// What other renderers call our options, where the spelling is too far off to guess.
+constexpr std::pair<std::string_view, std::string_view> foreign_names[] = {
+    {"--outfile", "--output"},   {"-out", "--output"},        {"--output-file", "--output"},
+    {"--samples", "--spp"},      {"--cropwindow", "--crop"},  {"--pixelbounds", "--crop"},
+    {"--width", "--size"},       {"--height", "--size"},      {"--resolution", "--size"},
+    {"--nthreads", "--threads"}, {"--scene_var", "--define"}, {"--debugstart", "replay"},
+};
+
+[[noreturn]] void reject_option(Verb verb, std::string_view word)
+{
+    const std::string_view name = word.substr(0, word.find('='));
+    if (name == "--no-gui") throw UsageError("there is no window: leave out '--no-gui'");
+    std::vector<std::string_view> known;
+    for (const OptionRow& row : option_rows()) {
+        for (std::string_view names = row.names; !names.empty();) {
+            const std::size_t comma = std::min(names.find(','), names.size());
+            const std::string_view one = names.substr(0, comma);
+            names.remove_prefix(std::min(comma + 1, names.size()));
+            if (one == name)
+                throw UsageError(fmt::format("option '{}' does not go with {}", name, name_of(verb)));
+            if (row.goes_with(verb)) known.push_back(one);
+        }
+    }
+    std::string_view near = closest_name(name, known);
+    for (const auto& [foreign, ours] : foreign_names)
+        if (foreign == name) near = ours;
+    throw UsageError(near.empty()
+                         ? fmt::format("unknown option '{}'; 'renderer --help' lists the options", name)
+                         : fmt::format("unknown option '{}'; did you mean '{}'?", name, near));
+}
+
+// What CLI11 could not place.
+void reject_remaining(const Options& options, const std::vector<std::string>& remaining)
+{
+    for (const std::string& word : remaining)
+        if (word.size() > 1 && word.front() == '-' && word != "--") reject_option(options.verb, word);
+    for (const std::string& word : remaining) {
+        if (word == "--") continue;
+        for (const auto& [name, verb] : verb_names)
+            if (word == name) throw UsageError(fmt::format("the verb '{}' must be the first word", name));
+        throw UsageError(fmt::format("'{}' is one word too many after '{}'", word, options.subject));
+    }
+}
+
+void check_outputs(const Options& options)
+{
+    std::vector<std::pair<std::filesystem::path, std::string>> seen;
+    const auto check = [&](const std::string& file, const char* option) {
+        if (file.empty()) throw UsageError(fmt::format("{} needs a file name", option));
+        const auto path = std::filesystem::path(file).lexically_normal();
+        for (const auto& [other, name] : seen)
+            if (other == path) throw UsageError(fmt::format("'{}' is to be written twice", name));
+        seen.emplace_back(path, file);
+    };
+    for (const std::string& file : options.outputs) check(file, "--output");
+    if (!options.json.empty() && options.json != "-") check(options.json, "--json");
+}
+
+const char* subject_name(Verb verb)
+{
+    return verb == Verb::types ? "NAME" : verb == Verb::info ? "IMAGE" : "SCENE";
+}
+
+// CLI11 says "--spp: 1 required TEXT missing" or "quiet was given a disallowed flag override".
+[[noreturn]] void reject_values(const std::string& problem)
+{
+    std::string name = problem.substr(0, problem.find_first_of(": "));
+    if (!name.starts_with('-')) name = "--" + name;
+    for (const OptionRow& row : option_rows())
+        if (row.long_name() == name)
+            throw UsageError(
+                fmt::format("option '{}' {} value", name, row.takes_value() ? "needs a" : "takes no"));
+    throw UsageError(problem);
+}
+
+void apply(const OptionRow& row, const std::vector<std::string>& values, Options& options)
+{
+    const std::string_view name = row.long_name();
+    if (row.takes_value() && !row.repeatable && values.size() > 1)
+        throw UsageError(fmt::format("option '{}' is given twice", name));
+    for (const std::string& value : values) {
+        // "-o --spp 4" is a forgotten value, not a file named "--spp".
+        if (row.takes_value() && value.starts_with("--"))
+            throw UsageError(
+                fmt::format("option '{}' needs a value, and '{}' looks like an option", name, value));
+        row.apply(options, name, value);
+        if (!row.changes_scene()) continue;
+        options.scene_words += fmt::format(" {}", name);
+        if (row.takes_value()) options.scene_words += " " + shell_quote(value);
+    }
+}
+
+} // namespace
+
+std::string_view closest_verb(std::string_view word)
+{
+    std::vector<std::string_view> names;
+    for (const auto& [name, verb] : verb_names) names.push_back(name);
+    return closest_name(word, names);
+}
+
+Options parse_options(std::vector<std::string> words)
+{
+    Options options;
+    for (const auto& [name, verb] : verb_names)
+        if (!words.empty() && words.front() == name) options.verb = verb;
+    if (options.verb != Verb::render) words.erase(words.begin());
+
+    CLI::App app;
+    app.set_help_flag();
+    app.allow_extras();
+    CLI::Option* subject = app.add_option(subject_name(options.verb))->allow_extra_args(false);
+    std::vector<std::pair<const OptionRow*, CLI::Option*>> given;
+    for (const OptionRow& row : option_rows()) {
+        if (!row.goes_with(options.verb)) continue;
+        CLI::Option* option = row.takes_value() ? app.add_option(row.names)->allow_extra_args(false)
+                                                : app.add_flag(row.names)->disable_flag_override();
+        option->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+        given.emplace_back(&row, option);
+        // CLI11 would take the next word for the value of "--spp=".
+        const std::string empty = fmt::format("{}=", row.long_name());
+        if (std::find(words.begin(), words.end(), empty) != words.end())
+            reject_values(std::string(row.long_name()) + ":");
+    }
+    try {
+        std::reverse(words.begin(), words.end()); // as CLI11 wants them
+        app.parse(std::move(words));
+    } catch (const CLI::ArgumentMismatch& problem) {
+        reject_values(problem.what());
+    } catch (const CLI::ParseError& problem) {
+        throw UsageError(problem.what());
+    }
+
+    if (subject->count() > 0) options.subject = subject->results().front();
+    for (const auto& [row, option] : given)
+        if (option->count() > 0) apply(*row, option->results(), options);
+    reject_remaining(options, app.remaining());
+    if (options.help || options.version) return options;
+
+    if (options.subject.empty() && options.verb != Verb::types)
+        throw UsageError(fmt::format("no {} given; 'renderer --help' shows how",
+                                     options.verb == Verb::info ? "image" : "scene file"));
+    if (options.verb == Verb::replay)
+        for (const auto& [row, option] : given)
+            if (row->topic == Topic::path && option->count() == 0)
+                throw UsageError(fmt::format("replay needs {} {}", row->names, row->value));
+    if (options.quiet && options.verbose) throw UsageError("--quiet and --verbose exclude each other");
+    check_outputs(options);
+    return options;
+}
+
+} // namespace plumb

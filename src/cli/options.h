@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// What the command line asks for. A pure function of the words: nothing is printed, read or exited here.
+
+#include "plumb/scene_file.h"
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace plumb {
+
+enum class Verb { render, types, info, replay };
+
+// The command line makes no sense: main() prints the message and exits with 2.
+class UsageError : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+struct Options {
+    Verb verb = Verb::render;
+    bool help = false;
+    bool version = false;
+    std::string subject;              // the scene, the image or the plugin's name; empty: all plugins
+    std::vector<std::string> outputs; // none: <scene>_<spp>.exr and .png
+    std::string json;                 // empty: no report; "-": standard output
+    float exposure = 0.f;
+    bool quiet = false;
+    bool verbose = false;
+    LoadOptions load;     // with samples_per_pixel, if given
+    RenderOptions render; // with seed, threads and crop
+    Vec2i pixel;          // to replay
+    std::uint64_t sample = 0;
+
+    std::string scene_words; // what changes the scene or the seed, quoted for a shell: " --seed 7 -D 'a=b c'"
+};
+
+// words: without the program's name. Throws UsageError.
+Options parse_options(std::vector<std::string> words);
+
+// What --help prints.
+std::string help_text(Verb verb);
+
+// The verb that `word` is or could be a slip of; else empty.
+std::string_view closest_verb(std::string_view word);
+
+} // namespace plumb

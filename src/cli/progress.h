@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// How far a rendering is: a bar on a terminal, a line now and then elsewhere.
+
+#include "plumb/render.h"
+
+#include <string>
+
+namespace plumb {
+
+int percent_done(const Progress& progress); // rounded down: 100 means finished
+// "42 %, 1.26 M of 3.00 M samples, 0:04, 0:05 left, 5.00 Mrays/s": done, elapsed, remaining.
+std::string progress_line(const Progress& progress);
+std::string progress_bar(const Progress& progress, int columns); // at most columns - 1 characters
+
+// Whether a plain line is due: not more than one every 10 % nor one every 5 seconds.
+class LinePace {
+public:
+    bool due(const Progress& progress); // if so, it counts as printed
+
+private:
+    int next_percent_ = 10;
+    double next_seconds_ = 5.0;
+};
+
+// Prints to the console; an object's end clears the bar.
+class ProgressDisplay {
+public:
+    explicit ProgressDisplay(bool quiet);
+    ~ProgressDisplay();
+    ProgressDisplay(const ProgressDisplay&) = delete;
+    ProgressDisplay& operator=(const ProgressDisplay&) = delete;
+
+    void show(const Progress& progress);
+
+private:
+    bool quiet_;
+    bool terminal_;
+    bool drawn_ = false;
+    double next_redraw_ = 0.0; // seconds
+    LinePace pace_;
+};
+
+} // namespace plumb

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#include "cli/commands.h"
+#include "cli/console.h"
+#include "cli/text.h"
+
+#include <fmt/format.h>
+
+namespace plumb {
+
+namespace {
+
+std::string_view kind_text(PathEvent::Kind kind)
+{
+    switch (kind) {
+    case PathEvent::Kind::ray: return "ray";
+    case PathEvent::Kind::hit: return "hit";
+    case PathEvent::Kind::escape: return "escape";
+    case PathEvent::Kind::emission: return "emission";
+    case PathEvent::Kind::direct: return "direct";
+    case PathEvent::Kind::scatter: return "scatter";
+    case PathEvent::Kind::roulette: return "roulette";
+    case PathEvent::Kind::end: return "end";
+    }
+    return "";
+}
+
+} // namespace
+
+void replay_command(const Options& options)
+{
+    const LoadedScene scene = load_and_log(options);
+    const Vec2i pixel = options.pixel;
+    const ReplayedSample sample = replay(scene.job, options.render.seed, pixel, options.sample);
+
+    print_output(fmt::format("sample {} of pixel {},{}, seed {}, integrator {}\n", options.sample, pixel.x,
+                             pixel.y, options.render.seed, scene.integrator));
+    print_output(fmt::format("raster position {} {}\n\n", sample.raster.x, sample.raster.y));
+    for (const PathEvent& event : sample.log)
+        print_output(fmt::format("{:<9} {}\n", kind_text(event.kind), event.text));
+    print_output(fmt::format("\nvalue     {}\nweight    {}\nverdict   {}\n", color_text(sample.value),
+                             sample.weight, verdict_text(sample.verdict)));
+}
+
+} // namespace plumb

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+#include "cli/report.h"
+
+#include "cli/json.h"
+#include "cli/text.h"
+
+#include <ctime>
+#include <sys/resource.h>
+#include <unistd.h>
+
+namespace plumb {
+
+namespace {
+
+void write_dialect(JsonWriter& json, const Dialect& dialect)
+{
+    json.begin_object("dialect");
+    json.text("name", to_string(dialect.name));
+    json.text("reason", dialect.reason);
+    json.boolean("mirrored_view", dialect.mirrored_view);
+    json.boolean("emitters_absorb", dialect.emitters_absorb);
+    json.boolean("point_takes_power", dialect.point_takes_power);
+    json.boolean("environment_flipped", dialect.environment_flipped);
+    json.number("environment_scale", static_cast<double>(dialect.environment_scale));
+    json.end_object();
+}
+
+void write_picture(JsonWriter& json, const Report& report)
+{
+    const auto integers = [&](const char* key, const std::vector<int>& values) {
+        json.begin_array(key);
+        for (const int value : values) json.integer({}, static_cast<std::uint64_t>(value));
+        json.end_array();
+    };
+    integers("resolution", {report.resolution.x, report.resolution.y});
+    if (report.crop)
+        integers("crop", {report.crop->x, report.crop->y, report.crop->width, report.crop->height});
+    else
+        json.null("crop");
+    json.integer("spp", report.samples_per_pixel);
+    json.integer("seed", report.seed);
+    json.integer("triangles", report.triangles);
+}
+
+void write_work(JsonWriter& json, const Report& report)
+{
+    json.begin_object("seconds");
+    json.number("parsing", report.parse_seconds);
+    json.number("building", report.build_seconds);
+    json.number("rendering", report.render_seconds);
+    json.number("writing", report.write_seconds);
+    json.number("total", report.total_seconds);
+    json.end_object();
+    json.begin_object("rays");
+    json.integer("camera", report.rays.camera);
+    json.integer("bounce", report.rays.bounce);
+    json.integer("shadow", report.rays.shadow);
+    json.integer("total", report.rays.total());
+    json.end_object();
+    json.number("rays_per_second", static_cast<double>(report.rays.total()) / report.render_seconds);
+    json.integer("peak_memory_bytes", report.peak_memory);
+}
+
+void write_left_out(JsonWriter& json, const LeftOut& left_out)
+{
+    json.begin_object("left_out");
+    json.integer("count", left_out.count);
+    if (left_out.count > 0) {
+        const LeftOut::Sample& first = left_out.first;
+        json.begin_object("first");
+        json.begin_array("pixel");
+        json.integer({}, static_cast<std::uint64_t>(first.pixel.x));
+        json.integer({}, static_cast<std::uint64_t>(first.pixel.y));
+        json.end_array();
+        json.integer("sample", first.index);
+        json.text("why", verdict_text(first.verdict));
+        json.text("value", color_text(first.value)); // JSON has no number for what it often is
+        json.end_object();
+    } else {
+        json.null("first");
+    }
+    json.end_object();
+}
+
+} // namespace
+
+Report make_report(const Options& options, const LoadedScene& scene, const RenderResult& result)
+{
+    Report report;
+    report.scene = options.subject;
+    report.input_hash = scene.input_hash;
+    report.dialect = scene.dialect;
+    report.integrator = scene.integrator;
+    report.sampler = scene.sampler;
+    report.samples_per_pixel = scene.job.sampler->samples_per_pixel();
+    report.seed = options.render.seed;
+    report.resolution = scene.job.camera->resolution();
+    report.crop = options.render.crop;
+    report.triangles = scene.job.scene.triangle_count();
+    report.parse_seconds = scene.parse_seconds;
+    report.build_seconds = scene.build_seconds;
+    report.render_seconds = result.seconds;
+    report.rays = result.rays;
+    report.left_out = result.left_out;
+    report.threads = result.threads;
+    report.instruction_set = scene.job.scene.options().instruction_set;
+    report.embree_version = scene.job.scene.embree_version();
+    return report;
+}
+
+void note_machine(Report& report)
+{
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    report.peak_memory = static_cast<std::uint64_t>(usage.ru_maxrss) * 1024; // Linux counts in kibibytes
+
+    char host[256] = "";
+    if (gethostname(host, sizeof host - 1) == 0) report.host = host;
+
+    const std::time_t now = std::time(nullptr);
+    std::tm utc{};
+    char time[32] = "";
+    if (gmtime_r(&now, &utc)) std::strftime(time, sizeof time, "%Y-%m-%dT%H:%M:%SZ", &utc);
+    report.finished = time;
+}
+
+std::string report_json(const Report& report)
+{
+    JsonWriter json;
+    json.begin_object();
+    json.text("software", "Plumb " PLUMB_VERSION);
+    json.text("scene", report.scene);
+    json.text("input_hash", report.input_hash);
+    write_dialect(json, report.dialect);
+    json.text("integrator", report.integrator);
+    json.text("sampler", report.sampler);
+    write_picture(json, report);
+    write_work(json, report);
+    write_left_out(json, report.left_out);
+    json.integer("threads", static_cast<std::uint64_t>(report.threads));
+    json.text("instruction_set", report.instruction_set);
+    json.text("embree_version", report.embree_version);
+    json.begin_array("outputs");
+    for (const std::string& output : report.outputs) json.text({}, output);
+    json.end_array();
+    json.text("host", report.host);
+    json.text("finished", report.finished);
+    json.end_object();
+    return std::move(json).finish();
+}
+
+} // namespace plumb

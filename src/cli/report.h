@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The report of a run that --json writes: what the header of an image does not say, times and machine included.
+
+#include "cli/options.h"
+
+namespace plumb {
+
+struct Report {
+    std::string scene; // as given
+    std::string input_hash;
+    Dialect dialect;
+    std::string integrator;
+    std::string sampler;
+    std::uint64_t samples_per_pixel = 0;
+    std::uint64_t seed = 0;
+    Vec2i resolution;
+    std::optional<PixelRect> crop;
+    std::uint64_t triangles = 0;
+    double parse_seconds = 0.0;
+    double build_seconds = 0.0;
+    double render_seconds = 0.0;
+    double write_seconds = 0.0;
+    double total_seconds = 0.0;
+    RayCounts rays;
+    LeftOut left_out;
+    int threads = 0;
+    std::string instruction_set;
+    std::string embree_version;
+    std::vector<std::string> outputs;
+    std::uint64_t peak_memory = 0; // bytes
+    std::string host;
+    std::string finished; // UTC, ISO 8601
+};
+
+// All but outputs, times of writing and in total, and what note_machine() fills in.
+Report make_report(const Options& options, const LoadedScene& scene, const RenderResult& result);
+void note_machine(Report& report); // peak memory, host and time, now
+
+std::string report_json(const Report& report);
+
+} // namespace plumb

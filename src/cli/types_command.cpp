@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#include "cli/commands.h"
+#include "cli/console.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace plumb {
+
+namespace {
+
+// In one line, however many it has in the manual.
+std::string first_sentence(std::string_view manual)
+{
+    std::string text(manual.substr(0, manual.find("\n\n")));
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    text.erase(text.find_last_not_of(' ') + 1); // npos + 1 is 0
+    return text.substr(0, text.find(". ")) + (text.find(". ") == std::string::npos ? "" : ".");
+}
+
+void print_list()
+{
+    std::size_t width = 0;
+    for (const TypeInfo& type : known_types()) width = std::max(width, type.name.size());
+    std::string_view kind;
+    for (const TypeInfo& type : known_types()) {
+        if (type.kind != kind) print_output(fmt::format("{}{}\n", kind.empty() ? "" : "\n", type.kind));
+        kind = type.kind;
+        print_output(fmt::format("  {:<{}}  {}\n", type.name, width, first_sentence(type.manual)));
+    }
+}
+
+// The kinds can share a name; then all their manuals are printed.
+void print_manuals(const std::string& name)
+{
+    bool found = false;
+    for (const TypeInfo& type : known_types()) {
+        if (type.name != name) continue;
+        print_output(fmt::format("{}{} '{}'\n\n{}", found ? "\n" : "", type.kind, type.name, type.manual));
+        if (!type.manual.ends_with('\n')) print_output("\n");
+        found = true;
+    }
+    if (found) return;
+    std::vector<std::string_view> names;
+    for (const TypeInfo& type : known_types()) names.push_back(type.name);
+    const std::string_view near = closest_name(name, names);
+    throw UsageError(near.empty() ? fmt::format("unknown type '{}'; 'renderer types' lists them", name)
+                                  : fmt::format("unknown type '{}'; did you mean '{}'?", name, near));
+}
+
+} // namespace
+
+void types_command(const Options& options)
+{
+    if (options.subject.empty())
+        print_list();
+    else
+        print_manuals(options.subject);
+}
+
+} // namespace plumb

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#include "cli/values.h"
+
+#include "cli/options.h"
+
+#include <charconv>
+#include <fmt/format.h>
+#include <optional>
+
+namespace plumb {
+
+namespace {
+
+// The whole text as a number; a leading + is fine.
+template <class T>
+std::optional<T> whole_number(std::string_view text)
+{
+    if (text.starts_with('+')) {
+        text.remove_prefix(1);
+        if (text.starts_with('-')) return std::nullopt;
+    }
+    T value{};
+    const char* end = text.data() + text.size();
+    const auto [stop, problem] = std::from_chars(text.data(), end, value);
+    if (problem != std::errc() || stop != end) return std::nullopt;
+    return value;
+}
+
+// The parts between the separators, as integers from 0 to max_side; nothing if they are not exactly `count`.
+std::optional<std::vector<int>> integers(std::string_view text, char separator, std::size_t count)
+{
+    std::vector<int> values;
+    for (bool more = true; more;) {
+        const std::size_t end = text.find(separator);
+        const auto value = whole_number<int>(text.substr(0, end));
+        if (!value || *value < 0 || *value > max_side) return std::nullopt;
+        values.push_back(*value);
+        more = end != std::string_view::npos;
+        if (more) text.remove_prefix(end + 1);
+    }
+    return values.size() == count ? std::optional(values) : std::nullopt;
+}
+
+} // namespace
+
+std::uint64_t parse_integer(std::string_view option, std::string_view text, std::uint64_t min,
+                            std::uint64_t max)
+{
+    const auto value = whole_number<std::uint64_t>(text);
+    if (!value || *value < min || *value > max)
+        throw UsageError(
+            fmt::format("{} must be an integer from {} to {}, not '{}'", option, min, max, text));
+    return *value;
+}
+
+float parse_number(std::string_view option, std::string_view text, float min, float max)
+{
+    const auto value = whole_number<float>(text);
+    if (!value || !std::isfinite(*value) || *value < min || *value > max)
+        throw UsageError(fmt::format("{} must be a number from {} to {}, not '{}'", option, min, max, text));
+    return *value;
+}
+
+Vec2i parse_size(std::string_view option, std::string_view text)
+{
+    const auto values = integers(text, 'x', 2);
+    if (!values || (*values)[0] == 0 || (*values)[1] == 0)
+        throw UsageError(fmt::format("{} must be WIDTHxHEIGHT, integers from 1 to {} as in 640x480, not '{}'",
+                                     option, max_side, text));
+    return {(*values)[0], (*values)[1]};
+}
+
+Vec2i parse_pixel(std::string_view option, std::string_view text)
+{
+    const auto values = integers(text, ',', 2);
+    if (!values)
+        throw UsageError(
+            fmt::format("{} must be X,Y, integers from 0 to {} counted from the upper left corner, "
+                        "not '{}'",
+                        option, max_side, text));
+    return {(*values)[0], (*values)[1]};
+}
+
+PixelRect parse_rectangle(std::string_view option, std::string_view text)
+{
+    const auto values = integers(text, ',', 4);
+    if (!values || (*values)[2] == 0 || (*values)[3] == 0)
+        throw UsageError(
+            fmt::format("{} must be X,Y,WIDTH,HEIGHT, integers with X and Y from 0 and WIDTH and "
+                        "HEIGHT from 1 to {}, not '{}'",
+                        option, max_side, text));
+    return {(*values)[0], (*values)[1], (*values)[2], (*values)[3]};
+}
+
+std::string parse_word(std::string_view option, std::string_view text,
+                       const std::vector<std::string_view>& words)
+{
+    if (std::find(words.begin(), words.end(), text) == words.end())
+        throw UsageError(fmt::format("{} cannot be '{}'{}", option, text, way_out(text, words)));
+    return std::string(text);
+}
+
+std::pair<std::string, std::string> parse_definition(std::string_view option, std::string_view text)
+{
+    const std::size_t equals = text.find('=');
+    if (equals == 0 || equals == std::string_view::npos)
+        throw UsageError(fmt::format("{} must be name=value, not '{}'", option, text));
+    return {std::string(text.substr(0, equals)), std::string(text.substr(equals + 1))};
+}
+
+} // namespace plumb

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The values of options: whole words, checked for range. Each function throws UsageError in the name of `option`.
+
+#include "plumb/image.h"
+#include "plumb/math.h"
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace plumb {
+
+std::uint64_t parse_integer(std::string_view option, std::string_view text, std::uint64_t min,
+                            std::uint64_t max);
+float parse_number(std::string_view option, std::string_view text, float min, float max);
+Vec2i parse_size(std::string_view option, std::string_view text);          // WxH
+Vec2i parse_pixel(std::string_view option, std::string_view text);         // X,Y
+PixelRect parse_rectangle(std::string_view option, std::string_view text); // X,Y,W,H
+// One of the words, or an error that lists them.
+std::string parse_word(std::string_view option, std::string_view text,
+                       const std::vector<std::string_view>& words);
+std::pair<std::string, std::string> parse_definition(std::string_view option,
+                                                     std::string_view text); // name=value
+
+// The largest picture has max_side x max_side pixels.
+inline constexpr int max_side = 65535;
+
+} // namespace plumb

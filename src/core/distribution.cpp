@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+
+#include "plumb/distribution.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plumb {
+
+DiscreteDistribution::DiscreteDistribution(std::span<const double> weights)
+{
+    // Relative to the largest weight, so that sums of huge weights cannot overflow nor tiny ones vanish.
+    const double largest = weights.empty() ? 0.0 : *std::max_element(weights.begin(), weights.end());
+    const double unit = largest > 0.0 ? largest : 1.0;
+    cdf_.resize(weights.size() + 1);
+    cdf_[0] = 0.0;
+    for (std::size_t i = 0; i < weights.size(); ++i) cdf_[i + 1] = cdf_[i] + weights[i] / unit;
+    const double total = cdf_.back();
+    sum_ = total * unit;
+    if (!(total > 0.0)) return;
+    // Division keeps the order, and makes the end of the last thing that has a weight, and of all after it, exactly 1.
+    // Ends are multiples of 2^-53, as random numbers are, so that each thing is chosen exactly as often as it says.
+    for (double& x : cdf_) x = std::floor(x / total * 0x1p53) * 0x1p-53;
+}
+
+DiscreteDistribution::Choice DiscreteDistribution::sample(double u) const
+{
+    // The first end above u belongs to an interval that is not empty: it begins at or below u.
+    constexpr double largest_below_one = 0x1.fffffffffffffp-1;
+    const double clamped = std::clamp(u, 0.0, largest_below_one);
+    const auto end = std::upper_bound(cdf_.begin(), cdf_.end(), clamped);
+    const auto index = static_cast<std::uint32_t>(end - cdf_.begin() - 1);
+    const double low = cdf_[index];
+    const double width = *end - low;
+    return {index, static_cast<float>(width), std::min((clamped - low) / width, largest_below_one)};
+}
+
+} // namespace plumb

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: MIT
+#include "plumb/error.h"
+
+#include <algorithm>
+#include <cctype>
+
+namespace plumb {
+
+namespace {
+
+// Of longer lines only this much on either side of the column is kept: a file may be one line of 100 MB.
+constexpr std::size_t kept_bytes = 320;
+// Wider lines are shown through a window.
+constexpr int max_width = 160;
+constexpr int tab_width = 8;
+
+bool continues_character(char byte) // of UTF-8
+{
+    return (static_cast<unsigned char>(byte) & 0xC0u) == 0x80u;
+}
+
+bool is_control(char byte)
+{
+    const auto value = static_cast<unsigned char>(byte);
+    return value < 0x20 || value == 0x7F;
+}
+
+// A line as a terminal shows it: one string a terminal column, tabs expanded, control characters made harmless.
+struct ShownLine {
+    std::vector<std::string> cells;
+    int mark_begin = 0; // cells
+    int mark_end = 0;
+};
+
+ShownLine show(const SourceLocation& at)
+{
+    ShownLine shown;
+    const std::string& text = at.line_text;
+    const int begin = at.column - at.line_text_column, end = begin + std::max(at.length, 1);
+    const auto cell_count = [&] { return static_cast<int>(shown.cells.size()); };
+    for (int i = 0; i < static_cast<int>(text.size()); ++i) {
+        const char byte = text[static_cast<std::size_t>(i)];
+        if (i == begin) shown.mark_begin = cell_count();
+        if (byte == '\t')
+            shown.cells.resize(
+                shown.cells.size() + static_cast<std::size_t>(tab_width - cell_count() % tab_width), " ");
+        else if (continues_character(byte) && !shown.cells.empty())
+            shown.cells.back() += byte;
+        else
+            shown.cells.emplace_back(1, is_control(byte) ? '?' : byte);
+        if (i + 1 == end) shown.mark_end = cell_count();
+    }
+    if (begin >= static_cast<int>(text.size())) shown.mark_begin = cell_count();
+    if (end > static_cast<int>(text.size())) shown.mark_end = cell_count();
+    shown.mark_end = std::max(shown.mark_end, shown.mark_begin + 1);
+    return shown;
+}
+
+// The line, and below it a caret and tildes.
+std::string excerpt(const SourceLocation& at)
+{
+    const ShownLine shown = show(at);
+    const int count = static_cast<int>(shown.cells.size());
+
+    // A window that has the mark a third of the way in.
+    int first = 0, last = count;
+    if (count > max_width) {
+        first = std::clamp(shown.mark_begin - max_width / 3, 0, count - max_width);
+        last = first + max_width;
+    }
+    const bool cut_left = first > 0 || at.line_text_column > 1, cut_right = last < count;
+
+    std::string line = cut_left ? "..." : "", marks(line.size(), ' ');
+    for (int i = first; i < last; ++i) line += shown.cells[static_cast<std::size_t>(i)];
+    if (cut_right) line += "...";
+    marks.append(static_cast<std::size_t>(std::max(shown.mark_begin - first, 0)), ' ');
+    marks += '^';
+    const int mark_end = std::min(shown.mark_end, std::max(last, shown.mark_begin + 1));
+    marks.append(static_cast<std::size_t>(mark_end - shown.mark_begin - 1), '~');
+    return line + "\n" + marks;
+}
+
+std::string_view to_string(Severity severity)
+{
+    switch (severity) {
+    case Severity::error: return "error";
+    case Severity::warning: return "warning";
+    case Severity::note: break;
+    }
+    return "note";
+}
+
+// Messages quote what files contain: nothing of that may steer a terminal.
+std::string harmless(std::string message)
+{
+    std::replace_if(
+        message.begin(), message.end(), [](char c) { return is_control(c) && c != '\n'; }, '?');
+    return message;
+}
+
+std::string joined(const std::vector<Diagnostic>& diagnostics)
+{
+    std::string result;
+    for (const Diagnostic& diagnostic : diagnostics)
+        result += (result.empty() ? "" : "\n") + diagnostic.text();
+    return result;
+}
+
+char lower(char c)
+{
+    return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+}
+
+// Optimal string alignment: insertions, deletions, substitutions and swaps of neighbours, in three rows of the
+// table. Upper and lower case count as equal.
+std::size_t distance(std::string_view a, std::string_view b)
+{
+    std::vector<std::size_t> before(b.size() + 1), previous(b.size() + 1), current(b.size() + 1);
+    for (std::size_t j = 0; j <= b.size(); ++j) previous[j] = j;
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        current[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t substituted = previous[j - 1] + (lower(a[i - 1]) == lower(b[j - 1]) ? 0 : 1);
+            current[j] = std::min({previous[j] + 1, current[j - 1] + 1, substituted});
+            if (i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) && lower(a[i - 2]) == lower(b[j - 1]))
+                current[j] = std::min(current[j], before[j - 2] + 1);
+        }
+        std::swap(before, previous);
+        std::swap(previous, current);
+    }
+    return previous[b.size()];
+}
+
+} // namespace
+
+SourceLocation SourceLocation::from_offset(std::string file, std::string_view text, std::size_t offset,
+                                           std::size_t length)
+{
+    offset = std::min(offset, text.size());
+    const std::string_view before = text.substr(0, offset);
+    const std::size_t line_start = before.rfind('\n') == std::string_view::npos ? 0 : before.rfind('\n') + 1;
+    std::size_t line_end = std::min(text.find('\n', offset), text.size());
+    if (line_end > line_start && text[line_end - 1] == '\r') --line_end;
+    const std::size_t kept_start = std::max(line_start, offset - std::min(offset, kept_bytes));
+    const std::size_t kept_end = std::max(kept_start, std::min(line_end, offset + kept_bytes));
+
+    SourceLocation at;
+    at.file = std::move(file);
+    at.line = static_cast<int>(std::count(before.begin(), before.end(), '\n')) + 1;
+    at.column = static_cast<int>(offset - line_start) + 1;
+    at.length =
+        static_cast<int>(std::clamp<std::size_t>(length, 1, kept_end > offset ? kept_end - offset : 1));
+    at.line_text = text.substr(kept_start, kept_end - kept_start);
+    at.line_text_column = static_cast<int>(kept_start - line_start) + 1;
+    return at;
+}
+
+std::string Diagnostic::text() const
+{
+    const std::string what = std::string(to_string(severity)) + ": " + harmless(message);
+    if (location.file.empty()) return what;
+    std::string place = harmless(location.file) + ":";
+    if (location.line > 0)
+        place += std::to_string(location.line) + ":" + std::to_string(location.column) + ":";
+    return place + " " + what + (location.line > 0 ? "\n" + excerpt(location) : "");
+}
+
+SceneError::SceneError(std::vector<Diagnostic> diagnostics)
+    : Error(joined(diagnostics)), diagnostics_(std::move(diagnostics))
+{}
+
+void Diagnostics::add(Severity severity, const SourceLocation& at, std::string message)
+{
+    const std::string key = at.file + ":" + std::to_string(at.line) + ":" + std::to_string(at.column) + ": " +
+                            std::string(to_string(severity)) + message;
+    if (seen_.insert(key).second) diagnostics_.push_back({severity, at, std::move(message)});
+}
+
+bool Diagnostics::has_errors() const
+{
+    return std::any_of(diagnostics_.begin(), diagnostics_.end(),
+                       [](const Diagnostic& d) { return d.severity == Severity::error; });
+}
+
+std::string_view closest_name(std::string_view word, const std::vector<std::string_view>& candidates)
+{
+    std::size_t best = std::max<std::size_t>(word.size() / 3, 1) + 1;
+    std::string_view closest;
+    for (const std::string_view candidate : candidates) {
+        const auto [shorter, longer] = std::minmax({word.size(), candidate.size()});
+        if (longer - shorter >= best) continue;
+        const std::size_t d = distance(word, candidate);
+        if (d < best && d < candidate.size()) {
+            best = d;
+            closest = candidate;
+        }
+    }
+    return closest;
+}
+
+std::string way_out(std::string_view word, const std::vector<std::string_view>& candidates)
+{
+    if (candidates.empty()) return {};
+    if (const std::string_view closest = closest_name(word, candidates); !closest.empty())
+        return "; did you mean '" + std::string(closest) + "'?";
+    std::string list(candidates.front());
+    for (std::size_t i = 1; i < candidates.size(); ++i)
+        list.append(i + 1 == candidates.size() ? " and " : ", ").append(candidates[i]);
+    return (candidates.size() == 1 ? "; known is " : "; known are ") + list;
+}
+
+} // namespace plumb

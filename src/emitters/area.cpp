@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+
+#include "interfaces/plugin.h"
+#include "plumb/emitter.h"
+#include "plumb/shape.h"
+
+namespace plumb {
+
+/// A surface that emits light: the same radiance in every direction on the front side of its shape, none behind.
+///
+/// The front side is that of the geometric normal, which is on the side of the vertex normals where a mesh has
+/// them. Spheres are sampled by the solid angle that they subtend, other shapes uniformly over their area. Stands
+/// inside the mesh or shape that emits.
+///
+///     radiance   color or texture   in W / (m^2 sr), at least 0   (default 1; mcgill dialect: 0)
+///     scale      float              multiplies radiance           (default 1)
+///
+///         <shape type="sphere">
+///             <emitter type="area">
+///                 <color name="radiance" value="15 15 12"/>
+///             </emitter>
+///         </shape>
+class AreaEmitter final : public Emitter {
+public:
+    explicit AreaEmitter(const Params& params)
+        : radiance_(
+              params.texture("radiance", Color(params.dialect().name == DialectName::mcgill ? 0.f : 1.f))),
+          scale_(params.number("scale", 1.f, Range::at_least(0.0))),
+          shape_(params.parent_shape())
+    {
+        if (shape_ == nullptr)
+            params.fail("area", "emitters need a surface: put it inside a <mesh> or <shape>");
+    }
+
+    std::optional<EmitterSample> sample(const Vec3f& from, double u_select, Vec2f u,
+                                        Measure measure) const override
+    {
+        if (measure != Measure::area)
+            if (const std::optional<ShapeSample> point = shape_->sample_solid_angle(from, u))
+                return seen(from, *point, [](double, double) { return 1.0; });
+        // Per unit solid angle = per unit area * distance^2 / cos.
+        return seen(from, shape_->sample_area(u_select, u), solid_angle_per_area);
+    }
+
+    EmitterValue evaluate(const Vec3f& from, const Vec3f& wi, const SurfacePoint* at,
+                          Measure measure) const override
+    {
+        if (at == nullptr) return {};
+        const Vec3d direction(wi);
+        const double cosine = -dot(direction, Vec3d(at->geometric_normal));
+        if (!(cosine > 0.0)) return {};
+        const Color radiance = radiance_->color(at->uv) * scale_;
+        if (measure != Measure::area)
+            if (const std::optional<float> pdf = shape_->solid_angle_pdf(from)) return {radiance, *pdf};
+        const double distance2 = length_squared(Vec3d(at->position) - Vec3d(from));
+        return {radiance, static_cast<float>(solid_angle_per_area(distance2, cosine) / shape_->area())};
+    }
+
+    // Radiance is the same in all directions: pi times its mean leaves each unit of area.
+    float power() const override { return pi * shape_->area() * luminance(radiance_->mean() * scale_); }
+
+    bool has_solid_angle() const override { return shape_->has_solid_angle(); }
+
+private:
+    static double solid_angle_per_area(double distance2, double cosine) { return distance2 / cosine; }
+
+    // A point on the shape as `from` sees it; nothing from behind.
+    template <class Jacobian>
+    std::optional<EmitterSample> seen(const Vec3f& from, const ShapeSample& point,
+                                      const Jacobian& jacobian) const
+    {
+        const Vec3d towards = Vec3d(point.position) - Vec3d(from);
+        const double distance2 = length_squared(towards);
+        const double distance = std::sqrt(distance2);
+        const Vec3d wi = towards / distance;
+        const double cosine = -dot(wi, Vec3d(point.normal));
+        if (!(distance > 0.0) || !(cosine > 0.0)) return std::nullopt;
+
+        EmitterSample sample;
+        sample.wi = Vec3f(wi);
+        sample.distance = static_cast<float>(distance);
+        sample.position = point.position;
+        sample.error = point.error;
+        sample.normal = point.normal;
+        sample.radiance = radiance_->color(point.uv) * scale_;
+        sample.pdf = static_cast<float>(point.pdf * jacobian(distance2, cosine));
+        return sample;
+    }
+
+    std::shared_ptr<const Texture> radiance_;
+    float scale_;
+    const Shape* shape_;
+};
+
+template std::unique_ptr<Emitter> build<AreaEmitter>(const Params&);
+
+} // namespace plumb

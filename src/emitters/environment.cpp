@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+
+// Importance sampling of a picture of the sky follows pbrt, 4th ed., section 12.5.2, but for the shape of the cells:
+// here a cell's density is constant per unit solid angle, and its weight is the exact mean of what lookups in it give.
+
+#include "interfaces/plugin.h"
+#include "plumb/distribution.h"
+#include "plumb/emitter.h"
+#include "plumb/sampling.h"
+#include "textures/bitmap.h"
+
+#include <memory>
+
+namespace plumb {
+
+/// Light from infinitely far away, all around: a picture of the surroundings, or one colour.
+///
+/// The y axis points up. With phi = atan2(z, x) in [0, 2 pi) and theta = acos(y), a direction sees column
+/// phi / (2 pi) width and row theta / pi height of the picture, whose first row is around +y; pixels are squares with
+/// their value in the middle, interpolated bilinearly; columns repeat, and beyond the first and last row, at the poles,
+/// those rows go on. In the Zaragoza dialect both run the other way: column (1 - phi / (2 pi)) width and row
+/// (1 - theta / pi) height, values in the pixels' upper left corners, rows repeat, and values are divided by 255
+/// (--envmap-scale). The parameter `rotate` is accepted and ignored, as in the course.
+///
+/// Directions are chosen in proportion to the luminance that they show.
+///
+///     filename   string   the picture, in any format that OpenImageIO reads   (default: none, one colour)
+///     radiance   color    multiplies the picture; without one, the radiance, in W / (m^2 sr)   (default 1)
+///
+/// For example:
+///
+///         <emitter type="environment">
+///             <string name="filename" value="textures/dusk.hdr"/>
+///             <color name="radiance" value="2 2 2"/>
+///         </emitter>
+class EnvironmentEmitter final : public Emitter {
+public:
+    explicit EnvironmentEmitter(const Params& p)
+        : flipped_(p.dialect().environment_flipped), constant_(p.color("radiance", Color(1.f)))
+    {
+        p.ignore(
+            "rotate",
+            "'rotate' of an environment is ignored, as in the course's renderer: the picture is not turned");
+        if (!p.has("filename")) {
+            integral_ = 2.0 * two_pi_ * luminance(constant_);
+            return;
+        }
+        bitmap_ =
+            std::make_unique<Bitmap>(p.file("filename"), true, constant_ * p.dialect().environment_scale);
+        if (bitmap_->min_value() < 0.f) {
+            p.warn("filename", "the picture has negative values, which are taken as 0");
+            bitmap_->clamp_negative();
+        }
+        tabulate();
+    }
+
+    void prepare(const SceneSphere& sphere) override { radius_ = sphere.radius > 0.f ? sphere.radius : 1.f; }
+
+    std::optional<EmitterSample> sample(const Vec3f& from, double u_select, Vec2f u,
+                                        Measure measure) const override
+    {
+        const Vec3f wi = bitmap_ ? sample_direction(u_select, u) : square_to_uniform_sphere(u);
+        const EmitterValue value = evaluate(from, wi, nullptr, measure);
+        if (!(value.pdf > 0.f)) return std::nullopt; // black everywhere
+        const Vec3f none(0.f);
+        return EmitterSample{wi, infinity, none, none, none, value.radiance, value.pdf};
+    }
+
+    EmitterValue evaluate(const Vec3f&, const Vec3f& wi, const SurfacePoint* at, Measure) const override
+    {
+        if (at) return {};
+        if (!bitmap_) return {constant_, constant_.is_black() ? 0.f : uniform_sphere_pdf()};
+        const Vec2f cell = cell_coordinates(wi);
+        const Vec2f texel = texel_coordinates(cell);
+        const Bitmap::Rows rows = flipped_ ? Bitmap::Rows::repeat : Bitmap::Rows::clamp;
+        return {bitmap_->bilinear(texel.x, texel.y, rows), pdf(cell)};
+    }
+
+    float power() const override { return static_cast<float>(integral_ * pi_d) * radius_ * radius_; }
+
+    bool is_infinite() const override { return true; }
+
+private:
+    static constexpr double two_pi_ = 2.0 * pi_d;
+
+    // Directions in units of cells: x from 0 to width with phi, y from 0 to height with theta.
+    Vec2f cell_coordinates(const Vec3f& wi) const
+    {
+        const float phi = atan2(wi.z, wi.x);
+        const float theta =
+            atan2(std::sqrt(wi.x * wi.x + wi.z * wi.z), wi.y); // acos(wi.y) is inexact at the poles
+        const float turns = phi < 0.f ? 1.f + phi * inv_two_pi : phi * inv_two_pi;
+        return {turns * static_cast<float>(bitmap_->width()),
+                theta * inv_pi * static_cast<float>(bitmap_->height())};
+    }
+
+    // Where the bitmap has the value for a direction.
+    Vec2f texel_coordinates(const Vec2f& cell) const
+    {
+        if (!flipped_) return cell - Vec2f(0.5f);
+        return Vec2f(static_cast<float>(bitmap_->width()), static_cast<float>(bitmap_->height())) - cell;
+    }
+
+    float pdf(const Vec2f& cell) const
+    {
+        if (!row_choice_.can_sample()) return 0.f;
+        const auto last = [](int size) { return static_cast<std::size_t>(size - 1); };
+        const std::size_t i = std::min(static_cast<std::size_t>(cell.x), last(bitmap_->width()));
+        const std::size_t j = std::min(static_cast<std::size_t>(cell.y), last(bitmap_->height()));
+        const float row = row_choice_.probability(j);
+        return row > 0.f ? row * column_choice_[j].probability(i) / static_cast<float>(solid_angle(j)) : 0.f;
+    }
+
+    // Chooses a cell, then a point in it, uniform in phi and cos(theta).
+    Vec3f sample_direction(double u_select, const Vec2f& u) const
+    {
+        if (!row_choice_.can_sample()) return {0.f, 1.f, 0.f};
+        const DiscreteDistribution::Choice row = row_choice_.sample(u_select);
+        const DiscreteDistribution::Choice column = column_choice_[row.index].sample(row.u);
+        const double phi = two_pi_ * (column.index + static_cast<double>(u.x)) / bitmap_->width();
+        const double cos_theta =
+            cos_theta_[row.index] - u.y * (cos_theta_[row.index] - cos_theta_[row.index + 1]);
+        const double sin_theta = std::sqrt(std::max(0.0, (1.0 - cos_theta) * (1.0 + cos_theta)));
+        const SinCosD angle = sin_cos(phi);
+        return {static_cast<float>(sin_theta * angle.cos), static_cast<float>(cos_theta),
+                static_cast<float>(sin_theta * angle.sin)};
+    }
+
+    double solid_angle(std::size_t row) const
+    {
+        return two_pi_ / bitmap_->width() * (cos_theta_[row] - cos_theta_[row + 1]);
+    }
+
+    // The texels that lookups in cell k of an axis read, and the mean weights that they have there. Where values are
+    // in the middle of pixels, the weight of the cell's own texel rises from 1/2 to 1 and falls again: 3/4 on average.
+    struct Taps {
+        int texel[3];
+        double weight[3];
+    };
+    Taps taps(int k, int size, bool repeat) const
+    {
+        const auto wrap = [&](int t) { return repeat ? (t + size) % size : std::clamp(t, 0, size - 1); };
+        if (flipped_) return {{wrap(size - 1 - k), wrap(size - k), 0}, {0.5, 0.5, 0.0}};
+        return {{wrap(k - 1), k, wrap(k + 1)}, {0.125, 0.75, 0.125}};
+    }
+
+    void tabulate()
+    {
+        const int width = bitmap_->width();
+        const int height = bitmap_->height();
+        for (int j = 0; j <= height; ++j) cos_theta_.push_back(sin_cos(pi_d * j / height).cos);
+
+        std::vector<double> row(
+            static_cast<std::size_t>(width)); // of the bitmap, averaged over a cell's height
+        std::vector<double> cells(row.size());
+        std::vector<double> row_weights;
+        for (int j = 0; j < height; ++j) {
+            const Taps above = taps(j, height, flipped_);
+            for (int x = 0; x < width; ++x) {
+                double& sum = row[static_cast<std::size_t>(x)] = 0.0;
+                for (int t = 0; t < 3; ++t)
+                    sum += above.weight[t] * luminance(bitmap_->texel(x, above.texel[t]));
+            }
+            for (int i = 0; i < width; ++i) {
+                const Taps beside = taps(i, width, true);
+                double& sum = cells[static_cast<std::size_t>(i)] = 0.0;
+                for (int t = 0; t < 3; ++t)
+                    sum += beside.weight[t] * row[static_cast<std::size_t>(beside.texel[t])];
+            }
+            column_choice_.emplace_back(cells);
+            row_weights.push_back(column_choice_.back().sum() * solid_angle(static_cast<std::size_t>(j)));
+        }
+        row_choice_ = DiscreteDistribution(row_weights);
+        integral_ = row_choice_.sum();
+    }
+
+    bool flipped_;
+    Color constant_;
+    std::unique_ptr<Bitmap> bitmap_; // null: constant_ everywhere
+    std::vector<double> cos_theta_;  // at the borders of the rows of cells
+    DiscreteDistribution row_choice_;
+    std::vector<DiscreteDistribution> column_choice_; // one a row
+    double integral_ = 0.0;                           // of the luminance over the sphere
+    float radius_ = 1.f;
+};
+
+template std::unique_ptr<Emitter> build<EnvironmentEmitter>(const Params&);
+
+} // namespace plumb

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+
+#include "interfaces/plugin.h"
+#include "plumb/emitter.h"
+
+namespace plumb {
+
+/// A light at a point, the same in all directions, written `pointlight` or `point`.
+///
+/// Give `radiance`, which is the intensity I: radiance I / d^2 arrives at distance d; or `power`: I = power / (4 pi).
+/// With neither, `pointlight` has a radiance of 1, and `point` what its dialect expects: radiance 0 (mcgill),
+/// power 1 (eth), else radiance 1.
+///
+///     position   point   where it stands              (default 0 100 0 for pointlight, 0 0 0 for point)
+///     radiance   color   intensity in W / sr          (default 1, see above)
+///     power      color   emitted power in W           (default: from radiance)
+///
+///         <emitter type="pointlight">
+///             <point name="position" value="0 3 0"/>
+///             <color name="radiance" value="20 20 20"/>
+///         </emitter>
+class PointEmitter final : public Emitter {
+public:
+    explicit PointEmitter(const Params& params)
+        : position_(params.point("position", Vec3f(0.f, params.type() == "pointlight" ? 100.f : 0.f, 0.f))),
+          intensity_(read_intensity(params))
+    {}
+
+    std::optional<EmitterSample> sample(const Vec3f& from, double /*u_select*/, Vec2f /*u*/,
+                                        Measure /*measure*/) const override
+    {
+        const Vec3d towards = Vec3d(position_) - Vec3d(from);
+        const double distance2 = length_squared(towards);
+        if (!(distance2 > 0.0)) return std::nullopt;
+        const double distance = std::sqrt(distance2);
+        const double falloff = 1.0 / distance2;
+
+        EmitterSample sample;
+        sample.wi = Vec3f(towards / distance);
+        sample.distance = static_cast<float>(distance);
+        sample.position = position_;
+        sample.error = Vec3f(0.f);
+        sample.normal = Vec3f(0.f);
+        // In double: at a distance of 1e-20, 1 / distance^2 is no float, but its product with the intensity may be.
+        sample.radiance =
+            Color(static_cast<float>(intensity_.r * falloff), static_cast<float>(intensity_.g * falloff),
+                  static_cast<float>(intensity_.b * falloff));
+        sample.pdf = 1.f;
+        sample.is_delta = true;
+        return sample;
+    }
+
+    EmitterValue evaluate(const Vec3f&, const Vec3f&, const SurfacePoint*, Measure) const override
+    {
+        return {};
+    }
+
+    float power() const override { return 4.f * pi * luminance(intensity_); }
+    bool is_delta() const override { return true; }
+
+private:
+    static Color read_intensity(const Params& params)
+    {
+        const bool is_point = params.type() == "point";
+        const float default_value = is_point && params.dialect().name == DialectName::mcgill ? 0.f : 1.f;
+        const bool has_radiance = params.has("radiance");
+        const bool has_power = params.has("power");
+        const Color radiance = params.color("radiance", Color(default_value));
+        const Color power = params.color("power", Color(default_value));
+        if (has_radiance && has_power)
+            params.fail("power",
+                        "and radiance were both given: power is 4 pi times radiance, so keep one of them");
+        const bool by_power = has_power || (!has_radiance && is_point && params.dialect().point_takes_power);
+        return by_power ? power / (4.f * pi) : radiance;
+    }
+
+    Vec3f position_;
+    Color intensity_; // W / sr
+};
+
+template std::unique_ptr<Emitter> build<PointEmitter>(const Params&);
+
+} // namespace plumb

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+
+#include "integrators/direct_light.h"
+
+#include "plumb/error.h"
+#include "plumb/sampling.h"
+
+#include <fmt/format.h>
+
+namespace plumb {
+namespace {
+
+Color light_from(Tracer& tracer, Sampler& sampler, const Vertex& vertex, const Emitter& emitter,
+                 Measure measure)
+{
+    const double u_select = sampler.next_choice();
+    const Vec2f u = sampler.next_2d();
+    const auto light = emitter.sample(vertex.at().position, u_select, u, measure);
+    if (!light) return Color(0.f);
+    return light_through(tracer, vertex, *light, vertex.evaluate(light->wi));
+}
+
+} // namespace
+
+Heuristic heuristic_of(const Params& params)
+{
+    return params.choice("heuristic", "power", {"balance", "power"}) == "balance" ? Heuristic::balance
+                                                                                  : Heuristic::power;
+}
+
+float mis_weight(Heuristic heuristic, float mine, float other)
+{
+    return heuristic == Heuristic::power ? power_heuristic(mine, other) : balance_heuristic(mine, other);
+}
+
+Color light_through(Tracer& tracer, const Vertex& vertex, const EmitterSample& light, const BsdfValue& value,
+                    float weight)
+{
+    const Color contribution = value.f_cos * light.radiance * (weight / light.pdf);
+    if (contribution.is_black()) return contribution;
+    if (tracer.visible(vertex.at(), light)) return contribution;
+    if (tracer.logging())
+        tracer.log(PathEvent::Kind::direct,
+                   fmt::format("a light at distance {:.6g} is hidden", light.distance));
+    return Color(0.f);
+}
+
+Color light_from_one_emitter(Tracer& tracer, Sampler& sampler, const Vertex& vertex,
+                             std::optional<Heuristic> heuristic)
+{
+    if (!vertex.has_smooth_lobes()) return Color(0.f);
+    const double u_choice = sampler.next_choice();
+    const Vec2f u = sampler.next_2d();
+    const auto light = tracer.scene().sample_emitter(vertex.at().position, u_choice, u);
+    if (!light) return Color(0.f);
+    const BsdfValue value = vertex.evaluate(light->wi);
+    const bool shared = heuristic && !light->is_delta;
+    return light_through(tracer, vertex, *light, value,
+                         shared ? mis_weight(*heuristic, light->pdf, value.pdf) : 1.f);
+}
+
+Color light_from_one_delta_emitter(Tracer& tracer, Sampler& sampler, const Vertex& vertex)
+{
+    if (!tracer.scene().has_delta_emitters() || !vertex.has_smooth_lobes()) return Color(0.f);
+    const double u_choice = sampler.next_choice();
+    const Vec2f u = sampler.next_2d();
+    const auto light = tracer.scene().sample_delta_emitter(vertex.at().position, u_choice, u);
+    if (!light) return Color(0.f);
+    return light_through(tracer, vertex, *light, vertex.evaluate(light->wi));
+}
+
+Color light_from_all_emitters(Tracer& tracer, Sampler& sampler, const Vertex& vertex, Measure measure)
+{
+    Color sum(0.f);
+    if (!vertex.has_smooth_lobes()) return sum;
+    for (const Emitter* emitter : tracer.scene().emitters())
+        sum += light_from(tracer, sampler, vertex, *emitter, measure);
+    return sum;
+}
+
+Color light_from_all_delta_emitters(Tracer& tracer, Sampler& sampler, const Vertex& vertex)
+{
+    Color sum(0.f);
+    if (!vertex.has_smooth_lobes()) return sum;
+    for (const Emitter* emitter : tracer.scene().emitters())
+        if (emitter->is_delta()) sum += light_from(tracer, sampler, vertex, *emitter, Measure::best);
+    return sum;
+}
+
+Color light_along(Tracer& tracer, const Vertex& vertex, const std::optional<BsdfSample>& sampled)
+{
+    if (!sampled || sampled->is_delta() || sampled->weight.is_black()) return Color(0.f);
+    const Vec3f direction = vertex.to_world(*sampled);
+    const auto hit = tracer.intersect(vertex.at().spawn_ray(direction), RayKind::bounce);
+    return sampled->weight *
+           tracer.scene().emission(vertex.at().position, direction, hit ? &*hit : nullptr).radiance;
+}
+
+void require_solid_angle(const Scene& scene, const char* parameter)
+{
+    for (const Emitter* emitter : scene.emitters()) {
+        if (emitter->has_solid_angle()) continue;
+        std::string name = "an emitter";
+        for (const SceneObject& object : scene.objects())
+            if (object.emitter.get() == emitter) name = object.name;
+        throw Error(fmt::format("{} cannot be 'solid-angle': the light of {} can only be sampled by area; "
+                                "use 'area'",
+                                parameter, name));
+    }
+}
+
+} // namespace plumb

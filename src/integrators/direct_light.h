@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Estimates of the light that reaches a vertex straight from emitters and leaves it towards the camera.
+
+#include "integrators/vertex.h"
+#include "plumb/params.h"
+#include "plumb/sampler.h"
+#include "plumb/tracer.h"
+
+namespace plumb {
+
+// How two techniques share what both can find (Veach 1997, section 9.2).
+enum class Heuristic { balance, power };
+Heuristic heuristic_of(const Params& params); // the parameter `heuristic`
+float mis_weight(Heuristic heuristic, float mine, float other);
+
+// One emitter, chosen in proportion to power, and one point of it. With a heuristic, emitters that BSDF sampling
+// finds too are weighted against it.
+Color light_from_one_emitter(Tracer& tracer, Sampler& sampler, const Vertex& vertex,
+                             std::optional<Heuristic> heuristic = {});
+
+// One emitter among those that no BSDF sample can reach: point and directional lights.
+Color light_from_one_delta_emitter(Tracer& tracer, Sampler& sampler, const Vertex& vertex);
+
+// One point of every emitter, or of every delta emitter.
+Color light_from_all_emitters(Tracer& tracer, Sampler& sampler, const Vertex& vertex, Measure measure);
+Color light_from_all_delta_emitters(Tracer& tracer, Sampler& sampler, const Vertex& vertex);
+
+// What a ray into a sampled direction finds. Nothing for discrete samples: the path itself follows those.
+Color light_along(Tracer& tracer, const Vertex& vertex, const std::optional<BsdfSample>& sampled);
+
+// What an emitter's chosen point adds, if it is visible. value: the BSDF's towards it.
+Color light_through(Tracer& tracer, const Vertex& vertex, const EmitterSample& light, const BsdfValue& value,
+                    float weight = 1.f);
+
+// Throws Error if an emitter of the scene cannot be sampled by solid angle; `parameter` asked for it.
+void require_solid_angle(const Scene& scene, const char* parameter);
+
+} // namespace plumb

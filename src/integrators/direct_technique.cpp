@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+
+#include "integrators/direct_technique.h"
+
+namespace plumb {
+namespace {
+
+constexpr double most_samples = 1e6;
+
+DirectTechnique::Kind kind_of(const Params& params, const char* name, DirectTechnique::Kind fallback)
+{
+    using Kind = DirectTechnique::Kind;
+    const std::string word = params.choice(name, {}, {"area", "solid-angle", "hemisphere", "bsdf"});
+    if (word == "area") return Kind::area;
+    if (word == "solid-angle") return Kind::solid_angle;
+    if (word == "hemisphere") return Kind::hemisphere;
+    if (word == "bsdf") return Kind::bsdf;
+    return fallback;
+}
+
+// A point of a light as a ray would have met it, as far as its density depends on it.
+SurfacePoint surface_of(const Scene& scene, const LightSample& light)
+{
+    SurfacePoint point;
+    point.position = light.position;
+    point.error = light.error;
+    point.geometric_normal = light.normal;
+    point.shading = Frame(light.normal);
+    point.emitter = light.emitter;
+    const auto& emitters = scene.emitters();
+    point.emitter_index = static_cast<std::uint32_t>(
+        std::find(emitters.begin(), emitters.end(), light.emitter) - emitters.begin());
+    return point;
+}
+
+} // namespace
+
+DirectTechnique::DirectTechnique(const Params& params, const char* measure, const char* samples,
+                                 const char* warp, Kind fallback)
+    : parameter_(measure),
+      kind_(kind_of(params, measure, fallback)),
+      warp_(hemisphere_warp(params, warp)),
+      samples_(static_cast<int>(params.integer(samples, 1, Range::closed(1, most_samples))))
+{}
+
+void DirectTechnique::prepare(const Scene& scene) const
+{
+    if (kind_ == Kind::solid_angle) require_solid_angle(scene, parameter_);
+}
+
+Measure DirectTechnique::measure() const
+{
+    return kind_ == Kind::area          ? Measure::area
+           : kind_ == Kind::solid_angle ? Measure::solid_angle
+                                        : Measure::best;
+}
+
+std::optional<BsdfSample> DirectTechnique::direction(Sampler& sampler, const Vertex& vertex) const
+{
+    if (kind_ == Kind::hemisphere) return scatter_by_warp(warp_, sampler, vertex);
+    const float u_lobe = sampler.next_1d();
+    const Vec2f u = sampler.next_2d();
+    return vertex.sample(u_lobe, u);
+}
+
+Color DirectTechnique::estimate(Tracer& tracer, Sampler& sampler, const Vertex& vertex) const
+{
+    if (samples_emitters()) return light_from_all_emitters(tracer, sampler, vertex, measure());
+    const Color unreachable = light_from_all_delta_emitters(tracer, sampler, vertex);
+    const auto sampled = direction(sampler, vertex);
+    return unreachable + light_along(tracer, vertex, sampled);
+}
+
+float DirectTechnique::density(const Scene& scene, const Vertex& vertex, const Vec3f& wo_world,
+                               const BsdfValue& value, const SurfacePoint* hit) const
+{
+    if (samples_emitters()) return scene.emission(vertex.at().position, wo_world, hit, measure()).pdf;
+    const bool by_bsdf = kind_ == Kind::bsdf || vertex.has_discrete_lobes() || vertex.has_transmission();
+    return by_bsdf ? value.pdf : hemisphere_pdf(warp_, vertex.at().shading.to_local(wo_world));
+}
+
+std::optional<DirectTechnique::Found> DirectTechnique::find(Tracer& tracer, Sampler& sampler,
+                                                            const Vertex& vertex,
+                                                            const DirectTechnique& other) const
+{
+    if (samples_emitters()) return find_by_emitter(tracer, sampler, vertex, other);
+    const auto sampled = direction(sampler, vertex);
+    if (!sampled || sampled->is_delta()) return std::nullopt;
+    const Vec3f wo_world = vertex.to_world(*sampled);
+    const BsdfValue value = vertex.evaluate(sampled->wo, wo_world);
+    if (value.f_cos.is_black()) return std::nullopt;
+    const auto hit = tracer.intersect(vertex.at().spawn_ray(wo_world), RayKind::bounce);
+    const SurfacePoint* point = hit ? &*hit : nullptr;
+    const Color radiance = tracer.scene().emission(vertex.at().position, wo_world, point).radiance;
+    if (radiance.is_black()) return std::nullopt;
+    return Found{value.f_cos * radiance, sampled->pdf,
+                 other.density(tracer.scene(), vertex, wo_world, value, point)};
+}
+
+std::optional<DirectTechnique::Found> DirectTechnique::find_by_emitter(Tracer& tracer, Sampler& sampler,
+                                                                       const Vertex& vertex,
+                                                                       const DirectTechnique& other) const
+{
+    const double u_choice = sampler.next_choice();
+    const Vec2f u = sampler.next_2d();
+    const auto light = tracer.scene().sample_emitter(vertex.at().position, u_choice, u, measure());
+    if (!light || light->is_delta) return std::nullopt;
+    const BsdfValue value = vertex.evaluate(light->wi);
+    const Color contribution = value.f_cos * light->radiance;
+    if (contribution.is_black() || !tracer.visible(vertex.at(), *light)) return std::nullopt;
+    const SurfacePoint point = surface_of(tracer.scene(), *light);
+    const bool is_surface = light->distance != infinity;
+    return Found{contribution, light->pdf,
+                 other.density(tracer.scene(), vertex, light->wi, value, is_surface ? &point : nullptr)};
+}
+
+} // namespace plumb

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+
+#include "interfaces/plugin.h"
+#include "plumb/integrator.h"
+#include "plumb/tracer.h"
+
+namespace plumb {
+
+/// The shading normal at the first hit, in world space, as a colour: the absolute values of x, y and z.
+///
+/// Black where there is nothing. No parameters.
+///
+///         <integrator type="normals"/>
+class NormalsIntegrator final : public Integrator {
+public:
+    explicit NormalsIntegrator(const Params&) {}
+
+    Color radiance(Tracer& tracer, Sampler&, const Ray& ray) const override
+    {
+        const auto hit = tracer.intersect(ray, RayKind::camera);
+        if (!hit) return Color(0.f);
+        const Vec3f n = abs(hit->shading.n);
+        return {n.x, n.y, n.z};
+    }
+};
+
+template std::unique_ptr<Integrator> build<NormalsIntegrator>(const Params&);
+
+} // namespace plumb

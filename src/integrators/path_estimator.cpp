@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+
+#include "integrators/path_estimator.h"
+
+namespace plumb {
+namespace {
+
+constexpr int largest_depth = 1'000'000'000;
+
+// However bright, a path ends some day.
+constexpr float largest_survival = 0.95f;
+
+} // namespace
+
+PathLimits::PathLimits(const Params& params)
+{
+    max_depth = static_cast<int>(params.integer("maxDepth", max_depth, Range::closed(-1, largest_depth)));
+    roulette_depth =
+        static_cast<int>(params.integer("rrDepth", roulette_depth, Range::closed(0, largest_depth)));
+}
+
+PathEstimator PathEstimator::direct_light(Finder finder)
+{
+    PathLimits one_bounce;
+    one_bounce.max_depth = 1;
+    return PathEstimator(finder, one_bounce);
+}
+
+Color PathEstimator::radiance(Tracer& tracer, Sampler& sampler, const Ray& ray) const
+{
+    return trace_path(*this, tracer, sampler, ray);
+}
+
+Color PathEstimator::direct(Tracer& tracer, Sampler& sampler, const Vertex& vertex) const
+{
+    switch (finder_) {
+    case Finder::path: return light_from_one_delta_emitter(tracer, sampler, vertex);
+    case Finder::emitter_samples: return light_from_one_emitter(tracer, sampler, vertex);
+    case Finder::both: return light_from_one_emitter(tracer, sampler, vertex, heuristic_);
+    }
+    return Color(0.f);
+}
+
+std::optional<BsdfSample> PathEstimator::scatter(Sampler& sampler, const Vertex& vertex) const
+{
+    const float u_lobe = sampler.next_1d();
+    const Vec2f u = sampler.next_2d();
+    return vertex.sample(u_lobe, u);
+}
+
+float PathEstimator::survival(const PathState& path, int bounces) const
+{
+    if (bounces <= limits_.roulette_depth) return 1.f;
+    return std::min(max_component(path.throughput) * path.eta_scale, largest_survival);
+}
+
+} // namespace plumb

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The three classical estimators of all light that reaches the camera.
+
+#include "integrators/direct_light.h"
+#include "integrators/path_loop.h"
+
+namespace plumb {
+
+// How long paths get.
+struct PathLimits {
+    int max_depth = -1;     // surface bounces; -1: any number
+    int roulette_depth = 3; // bounces before roulette starts
+
+    PathLimits() = default;
+    explicit PathLimits(const Params& params); // the parameters maxDepth and rrDepth
+};
+
+class PathEstimator {
+public:
+    // Who finds the emitters: the path's own directions (and nothing is lost but speed), one emitter sample a vertex
+    // (and the path counts only what no such sample could find), or both.
+    enum class Finder { path, emitter_samples, both };
+
+    explicit PathEstimator(Finder finder, PathLimits limits = {}, Heuristic heuristic = Heuristic::power)
+        : finder_(finder), limits_(limits), heuristic_(heuristic)
+    {}
+    // Direct light only: one bounce.
+    static PathEstimator direct_light(Finder finder);
+
+    Color radiance(Tracer& tracer, Sampler& sampler, const Ray& ray) const;
+
+    // The technique that path_loop.h asks for.
+    int max_depth() const { return limits_.max_depth; }
+    bool counts_emission(const PathState& path) const
+    {
+        return finder_ != Finder::emitter_samples || path.discrete;
+    }
+    float emission_weight(const PathState& path, float light_pdf) const
+    {
+        return finder_ == Finder::both ? mis_weight(heuristic_, path.pdf, light_pdf) : 1.f;
+    }
+    Color direct(Tracer& tracer, Sampler& sampler, const Vertex& vertex) const;
+    std::optional<BsdfSample> scatter(Sampler& sampler, const Vertex& vertex) const;
+    float survival(const PathState& path, int bounces) const;
+
+private:
+    Finder finder_;
+    PathLimits limits_;
+    Heuristic heuristic_;
+};
+
+} // namespace plumb

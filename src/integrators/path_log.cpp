@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+
+#include "integrators/path_loop.h"
+
+#include <fmt/format.h>
+
+namespace plumb {
+namespace {
+
+const char* name_of(Lobe lobe)
+{
+    switch (lobe) {
+    case Lobe::diffuse_reflection: return "diffuse reflection";
+    case Lobe::glossy_reflection: return "glossy reflection";
+    case Lobe::glossy_transmission: return "glossy transmission";
+    case Lobe::delta_reflection: return "discrete reflection";
+    case Lobe::delta_transmission: return "discrete transmission";
+    }
+    return "";
+}
+
+std::string text(const Color& c)
+{
+    return fmt::format("({:.6g} {:.6g} {:.6g})", c.r, c.g, c.b);
+}
+
+} // namespace
+
+void log_scatter(Tracer& tracer, const PathState& path, const BsdfSample& next)
+{
+    tracer.log(PathEvent::Kind::scatter,
+               fmt::format("{}: weight {}, {} {:.6g}, eta {:.6g}; throughput {}", name_of(next.lobe),
+                           text(next.weight), next.is_delta() ? "probability" : "pdf", next.pdf, next.eta,
+                           text(path.throughput)));
+}
+
+void log_roulette(Tracer& tracer, float survival, bool survived)
+{
+    tracer.log(PathEvent::Kind::roulette, fmt::format("{} with probability {:.6g}",
+                                                      survived ? "survives" : "does not survive", survival));
+}
+
+} // namespace plumb

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The loop of every integrator that follows a path from the camera. What distinguishes them is a technique:
+//
+//     int max_depth() const                                     surface bounces; negative: any number
+//     bool counts_emission(const PathState&) const              does the path's last direction count what it meets?
+//     float emission_weight(const PathState&, float light_pdf) const     and with which weight?
+//     Color direct(Tracer&, Sampler&, const Vertex&) const      light that reaches the vertex by other means
+//     std::optional<BsdfSample> scatter(Sampler&, const Vertex&) const   where the path goes on
+//     float survival(const PathState&, int bounces) const       the chance that it does; 1: no roulette
+
+#include "integrators/vertex.h"
+#include "plumb/sampler.h"
+#include "plumb/tracer.h"
+
+namespace plumb {
+
+// What a path remembers of its way.
+struct PathState {
+    explicit PathState(const Vec3f& camera) : from(camera) {}
+
+    Color throughput{1.f};
+    // What refraction has scaled radiance by, undone: throughput * eta_scale is what fraction of the light, as power,
+    // is left, and what roulette looks at. Otherwise a path inside glass would end too early, for its throughput is
+    // 1/eta^2 there until it leaves (pbrt 4th ed., section 13.4).
+    float eta_scale = 1.f;
+    Vec3f from;           // the camera or the last vertex
+    float pdf = 0.f;      // of the last direction, unless discrete
+    bool discrete = true; // nothing but following the path finds what it sees: camera rays and delta bounces
+
+    void extend(const SurfacePoint& vertex, const BsdfSample& next)
+    {
+        throughput *= next.weight;
+        eta_scale *= sqr(next.eta);
+        from = vertex.position;
+        pdf = next.pdf;
+        discrete = next.is_delta();
+    }
+};
+
+// For `renderer replay`.
+void log_scatter(Tracer& tracer, const PathState& path, const BsdfSample& next);
+void log_roulette(Tracer& tracer, float survival, bool survived);
+
+// What the path's last ray sees, if the technique counts it.
+template <class Technique>
+Color emitted(const Technique& technique, Tracer& tracer, const PathState& path, const Ray& ray,
+              const std::optional<SurfacePoint>& hit)
+{
+    if (!technique.counts_emission(path)) return Color(0.f);
+    const EmitterValue light = tracer.scene().emission(path.from, ray.direction, hit ? &*hit : nullptr);
+    if (light.radiance.is_black()) return Color(0.f);
+    const float weight = path.discrete ? 1.f : technique.emission_weight(path, light.pdf);
+    const Color contribution = path.throughput * light.radiance * weight;
+    if (tracer.logging()) tracer.log_contribution(PathEvent::Kind::emission, "emission", contribution);
+    return contribution;
+}
+
+// The same for what technique.direct() finds.
+template <class Technique>
+Color scattered(const Technique& technique, Tracer& tracer, Sampler& sampler, const PathState& path,
+                const Vertex& vertex)
+{
+    const Color contribution = path.throughput * technique.direct(tracer, sampler, vertex);
+    if (tracer.logging() && !contribution.is_black())
+        tracer.log_contribution(PathEvent::Kind::direct, "direct light", contribution);
+    return contribution;
+}
+
+// Russian roulette (Arvo and Kirk 1990): the path ends with some probability, and the survivors stand for the dead.
+template <class Technique>
+bool survives(const Technique& technique, Tracer& tracer, Sampler& sampler, PathState& path, int bounces)
+{
+    const float survival = technique.survival(path, bounces);
+    if (survival >= 1.f) return true;
+    const bool survived = sampler.next_1d() < survival;
+    if (survived) path.throughput /= survival;
+    if (tracer.logging()) log_roulette(tracer, survival, survived);
+    return survived;
+}
+
+template <class Technique>
+Color trace_path(const Technique& technique, Tracer& tracer, Sampler& sampler, Ray ray)
+{
+    const auto end = [&](const char* why) {
+        if (tracer.logging()) tracer.log(PathEvent::Kind::end, why);
+    };
+    Color result(0.f);
+    PathState path(ray.origin);
+    for (int bounces = 0;; ++bounces) {
+        const auto hit = tracer.intersect(ray, bounces == 0 ? RayKind::camera : RayKind::bounce);
+        result += emitted(technique, tracer, path, ray, hit);
+        if (!hit) return end("the path has left the scene"), result;
+        if (hit->emitter && tracer.scene().emitters_absorb())
+            return end("an emitter absorbs the path"), result;
+        if (bounces == technique.max_depth()) return end("the path has its largest depth"), result;
+
+        const Vertex vertex(*hit, ray.direction);
+        result += scattered(technique, tracer, sampler, path, vertex);
+        const std::optional<BsdfSample> next = technique.scatter(sampler, vertex);
+        if (!next) return end("the surface absorbs the path"), result;
+        path.extend(*hit, *next);
+        if (tracer.logging()) log_scatter(tracer, path, *next);
+        if (path.throughput.is_black()) return end("nothing is left of the path's throughput"), result;
+
+        const bool last = bounces + 1 == technique.max_depth();
+        if (last && !technique.counts_emission(path)) return end("nothing more could count"), result;
+        if (!survives(technique, tracer, sampler, path, bounces + 1)) return end("roulette"), result;
+        ray = hit->spawn_ray(vertex.to_world(*next));
+    }
+}
+
+} // namespace plumb

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+
+// [1] Veach 1997, "Robust Monte Carlo Methods for Light Transport Simulation", section 9.2
+
+#include "integrators/path_estimator.h"
+#include "interfaces/plugin.h"
+#include "plumb/integrator.h"
+
+namespace plumb {
+
+/// All light, by paths that find emitters in two ways: one emitter sample at each surface, and the path itself.
+///
+/// Both are weighted by multiple importance sampling (Veach 1997, section 9.2), so each does what it is good at. What
+/// only one of them can find (point lights; what is seen after a discrete bounce) has weight 1. The integrator to
+/// use when in doubt.
+///
+///     maxDepth    integer   surface bounces: 0 shows emitters only, 1 direct light, -1 everything   (default -1)
+///     rrDepth     integer   bounces before Russian roulette starts   (default 3)
+///     heuristic   string    how the two share: power or balance   (default power)
+///
+///         <integrator type="path_mis">
+///             <string name="heuristic" value="balance"/>
+///         </integrator>
+class PathMis final : public Integrator {
+public:
+    explicit PathMis(const Params& params)
+        : estimator_(PathEstimator::Finder::both, PathLimits(params), heuristic_of(params))
+    {}
+
+    Color radiance(Tracer& tracer, Sampler& sampler, const Ray& ray) const override
+    {
+        return estimator_.radiance(tracer, sampler, ray);
+    }
+
+private:
+    PathEstimator estimator_;
+};
+
+template std::unique_ptr<Integrator> build<PathMis>(const Params&);
+
+} // namespace plumb

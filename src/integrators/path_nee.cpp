@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+
+#include "integrators/path_estimator.h"
+#include "interfaces/plugin.h"
+#include "plumb/integrator.h"
+
+namespace plumb {
+
+/// All light, by paths with next-event estimation: one sample of one emitter at each surface.
+///
+/// Emitters are chosen in proportion to their power. What the path itself meets counts only where no emitter sample
+/// could have found it: at the first hit, and after a discrete bounce (mirror, smooth glass). Also called path_ems.
+///
+///     maxDepth   integer   surface bounces: 0 shows emitters only, 1 direct light, -1 everything   (default -1)
+///     rrDepth    integer   bounces before Russian roulette starts   (default 3)
+///
+///         <integrator type="path_nee"/>
+class PathNee final : public Integrator {
+public:
+    explicit PathNee(const Params& params)
+        : estimator_(PathEstimator::Finder::emitter_samples, PathLimits(params))
+    {}
+
+    Color radiance(Tracer& tracer, Sampler& sampler, const Ray& ray) const override
+    {
+        return estimator_.radiance(tracer, sampler, ray);
+    }
+
+private:
+    PathEstimator estimator_;
+};
+
+template std::unique_ptr<Integrator> build<PathNee>(const Params&);
+
+} // namespace plumb

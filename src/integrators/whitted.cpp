@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+
+// [1] Whitted 1980, "An Improved Illumination Model for Shaded Display"
+
+#include "integrators/direct_light.h"
+#include "integrators/discrete_chain.h"
+#include "interfaces/plugin.h"
+#include "plumb/integrator.h"
+
+namespace plumb {
+
+/// Emission, direct light, and what is seen in mirrors and through smooth glass (Whitted 1980).
+///
+/// One sample of one emitter, chosen in proportion to power, at the first surface that is not discrete; discrete
+/// bounces are followed with probability 0.95 each, and weighted by its inverse. No parameters.
+///
+///         <integrator type="whitted"/>
+class Whitted final : public Integrator, public DiscreteChain {
+public:
+    explicit Whitted(const Params&) {}
+
+    Color radiance(Tracer& tracer, Sampler& sampler, const Ray& ray) const override
+    {
+        return trace_path(*this, tracer, sampler, ray);
+    }
+
+    Color direct(Tracer& tracer, Sampler& sampler, const Vertex& vertex) const
+    {
+        return light_from_one_emitter(tracer, sampler, vertex);
+    }
+    int max_depth() const { return -1; }
+    float survival(const PathState&, int) const { return 0.95f; }
+};
+
+template std::unique_ptr<Integrator> build<Whitted>(const Params&);
+
+} // namespace plumb

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: MIT
+
+// Writing pictures.
+
+#include "io/image_quiet.h"
+#include "io/image_text.h"
+#include "plumb/error.h"
+#include "plumb/image.h"
+
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <unistd.h>
+
+namespace plumb {
+
+namespace {
+
+enum class Encoding { linear_float, srgb_8bit };
+
+struct Format {
+    std::string_view extension;
+    Encoding encoding;
+    bool keeps_windows; // a picture may be a part of a larger one
+    std::string_view compression;
+};
+
+constexpr Format formats[] = {
+    {".exr", Encoding::linear_float, true, "zip"},    {".hdr", Encoding::linear_float, false, ""},
+    {".tif", Encoding::linear_float, false, "zip"},   {".tiff", Encoding::linear_float, false, "zip"},
+    {".png", Encoding::srgb_8bit, false, ""},         {".jpg", Encoding::srgb_8bit, false, "jpeg:95"},
+    {".jpeg", Encoding::srgb_8bit, false, "jpeg:95"},
+};
+
+[[noreturn]] void fail(const std::filesystem::path& path, std::string_view reason)
+{
+    throw Error(fmt::format("cannot write '{}': {}", path.string(), reason));
+}
+
+const Format& format_of(const std::filesystem::path& path)
+{
+    std::string extension = path.extension().string();
+    for (char& c : extension)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    std::string known;
+    for (const Format& format : formats) {
+        if (format.extension == extension) return format;
+        known += (known.empty() ? "" : ", ") + std::string(format.extension);
+    }
+    if (extension.empty()) fail(path, fmt::format("the name has no extension; known are {}", known));
+    fail(path, fmt::format("unknown extension '{}'; known are {}", path.extension().string(), known));
+}
+
+// A new, empty file beside `path`, with the same extension; gone again when this goes, unless it took path's place.
+class TemporaryFile {
+public:
+    explicit TemporaryFile(const std::filesystem::path& path) : target_(path)
+    {
+        constexpr int attempts = 1000;
+        for (int i = 0; i < attempts; ++i) {
+            name_ = path;
+            name_.replace_filename(
+                fmt::format(".{}.part{}{}", path.stem().string(), i, path.extension().string()));
+            if (std::FILE* const file = std::fopen(name_.c_str(), "wbx")) { // x: fails if the file exists
+                std::fclose(file);
+                return;
+            }
+            if (errno != EEXIST) break;
+        }
+        const std::string reason = std::strerror(errno);
+        name_.clear();
+        fail(target_, reason);
+    }
+    TemporaryFile(const TemporaryFile&) = delete;
+    TemporaryFile& operator=(const TemporaryFile&) = delete;
+    ~TemporaryFile()
+    {
+        if (!name_.empty()) std::remove(name_.c_str());
+    }
+
+    std::string name() const { return name_.string(); }
+
+    void take_place()
+    {
+        if (std::rename(name_.c_str(), target_.c_str()) != 0) fail(target_, std::strerror(errno));
+        name_.clear();
+    }
+
+private:
+    std::filesystem::path target_;
+    std::filesystem::path name_;
+};
+
+OIIO::ImageSpec spec_of(const Image& image, const Format& format)
+{
+    const PixelRect& data = image.data_window();
+    const bool is_float = format.encoding == Encoding::linear_float;
+    OIIO::ImageSpec spec(data.width, data.height, image.channel_count(),
+                         is_float ? OIIO::TypeFloat : OIIO::TypeUInt8);
+    spec.channelnames = image.channel_names();
+    if (format.keeps_windows) {
+        spec.x = data.x;
+        spec.y = data.y;
+        spec.full_width = image.full_width();
+        spec.full_height = image.full_height();
+    }
+    for (const auto& [name, value] : image.metadata) {
+        if (const int* const integer = std::get_if<int>(&value)) {
+            spec.attribute(name, *integer);
+        } else if (const float* const number = std::get_if<float>(&value)) {
+            spec.attribute(name, *number);
+        } else if (const std::string* const text = std::get_if<std::string>(&value)) {
+            spec.attribute(name, *text);
+        } else {
+            const auto& floats = std::get<std::vector<float>>(value);
+            OIIO::TypeDesc type(OIIO::TypeDesc::FLOAT, static_cast<int>(floats.size()));
+            if (floats.size() == 16) type = OIIO::TypeMatrix;
+            if (!floats.empty()) spec.attribute(name, type, floats.data());
+        }
+    }
+    // OpenImageIO adds the time of day unless there is a DateTime, and leaves out one that is no text.
+    spec.attribute("DateTime", 0);
+    spec.attribute("oiio:ColorSpace", is_float ? "Linear" : "sRGB");
+    if (!format.compression.empty()) spec.attribute("compression", std::string(format.compression));
+    if (format.extension.starts_with(".jp")) spec.attribute("jpeg:subsampling", "4:4:4");
+    return spec;
+}
+
+std::vector<std::uint8_t> encode_srgb(const Image& image, float exposure)
+{
+    const PixelRect& data = image.data_window();
+    const auto count = static_cast<std::size_t>(data.width) * static_cast<std::size_t>(data.height) *
+                       static_cast<std::size_t>(image.channel_count());
+    const float scale = exposure < 0.f ? 1.f / pow(2.f, -exposure) : pow(2.f, exposure);
+    const float* const linear = image.pixel(data.x, data.y);
+    std::vector<std::uint8_t> bytes(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const float x = linear[i] * scale;
+        const float clamped = x > 0.f ? std::min(x, 1.f) : 0.f; // not a number: 0
+        bytes[i] = static_cast<std::uint8_t>(srgb_from_linear(clamped) * 255.f + 0.5f);
+    }
+    return bytes;
+}
+
+// Empty if all went well, else the reason.
+std::string write_file(const std::string& name, const Image& image, const Format& format, float exposure)
+{
+    OIIO::attribute("debug", 0); // never print
+    const QuietStandardError quiet;
+    const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(name);
+    if (!output) return one_line(OIIO::geterror());
+    const PixelRect& data = image.data_window();
+    bool good = output->open(name, spec_of(image, format));
+    if (good && format.encoding == Encoding::linear_float) {
+        good = output->write_image(OIIO::TypeFloat, image.pixel(data.x, data.y));
+    } else if (good) {
+        const std::vector<std::uint8_t> bytes = encode_srgb(image, exposure);
+        good = output->write_image(OIIO::TypeUInt8, bytes.data());
+    }
+    std::string reason = output->geterror();
+    good = output->close() && good;
+    reason += output->geterror(); // fetched in any case: what is not would be printed
+    if (good) return {};
+    return reason.empty() ? "the disk may be full" : one_line(reason);
+}
+
+} // namespace
+
+void check_image_path(const std::filesystem::path& path)
+{
+    if (!path.has_filename()) fail(path, "no file name");
+    std::error_code error;
+    if (std::filesystem::is_directory(path, error)) fail(path, "a folder of that name exists");
+    format_of(path);
+    const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+    if (!std::filesystem::exists(folder, error))
+        fail(path, fmt::format("the folder '{}' does not exist", folder.string()));
+    if (!std::filesystem::is_directory(folder, error))
+        fail(path, fmt::format("'{}' is no folder", folder.string()));
+    if (std::filesystem::exists(path, error) && access(path.c_str(), W_OK) != 0)
+        fail(path, std::strerror(errno));
+    const TemporaryFile probe(path); // created, and removed
+}
+
+void write_image(const std::filesystem::path& path, const Image& image, float exposure)
+{
+    check_image_path(path);
+    TemporaryFile file(path);
+    std::string reason;
+    try {
+        reason = write_file(file.name(), image, format_of(path), exposure);
+    } catch (const std::bad_alloc&) {
+        reason = "not enough memory";
+    } catch (const std::exception& e) { // whatever OpenImageIO lets through
+        reason = one_line(e.what());
+    }
+    if (!reason.empty()) fail(path, reason);
+    file.take_place();
+}
+
+} // namespace plumb

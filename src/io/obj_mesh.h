@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// From what an OBJ file says to a mesh of triangles.
+
+#include "io/obj_scan.h"
+#include "plumb/mesh.h"
+
+namespace plumb {
+
+// The indices of `faces` must be in range. Throws Error if no triangle has an area.
+MeshData assemble_obj_mesh(ObjAttributes attributes, const ObjFaces& faces);
+
+} // namespace plumb

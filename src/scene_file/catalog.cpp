@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: MIT
+#include "scene_file/catalog.h"
+
+#include "plumb/scene_file.h"
+#include "scene_file/manual.h"
+
+#include <algorithm>
+
+namespace plumb {
+
+namespace {
+
+constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
+constexpr std::string_view name_characters =
+    "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
+
+} // namespace
+
+// Type name in scene files, class, and the class's name for its manual page. The class is declared on the spot; its
+// file instantiates build<> for it.
+
+constexpr Entry<Shape> shapes[] = {
+    {"obj", build<class TriangleMesh>, "TriangleMesh"},
+    {"sphere", build<class Sphere>, "Sphere"},
+    {"rectangle", build<class Rectangle>, "Rectangle"},
+};
+
+constexpr Entry<Bsdf> bsdfs[] = {
+    {"diffuse", build<class Diffuse>, "Diffuse"},
+    {"mirror", build<class Mirror>, "Mirror"},
+    {"dielectric", build<class Dielectric>, "Dielectric"},
+    {"microfacet", build<class Microfacet>, "Microfacet"},
+    {"roughconductor", build<class RoughConductor>, "RoughConductor"},
+    {"roughsubstrate", build<class RoughSubstrate>, "RoughSubstrate"},
+    {"roughdielectric", build<class RoughDielectric>, "RoughDielectric"},
+    {"phong", build<class Phong>, "Phong"},
+};
+
+constexpr Entry<Texture> textures[] = {
+    {"checker", build<class Checker>, "Checker"},
+    {"textmap", build<class TextMap>, "TextMap"},
+    {"checkerboard_color", build<class Checkerboard>, "Checkerboard"},
+    {"checkerboard_float", build<class Checkerboard>, "Checkerboard"},
+    {"constant_color", build<class ConstantTexture>, "ConstantTexture"},
+    {"constant_float", build<class ConstantTexture>, "ConstantTexture"},
+    {"imagetexture_color3f", build<class ImageTexture>, "ImageTexture"},
+};
+
+constexpr Entry<Emitter> emitters[] = {
+    {"area", build<class AreaEmitter>, "AreaEmitter"},
+    {"pointlight", build<class PointEmitter>, "PointEmitter"},
+    {"point", build<class PointEmitter>, "PointEmitter"},
+    {"directional", build<class DirectionalEmitter>, "DirectionalEmitter"},
+    {"environment", build<class EnvironmentEmitter>, "EnvironmentEmitter"},
+};
+
+constexpr Entry<Camera> cameras[] = {
+    {"perspective", build<class PerspectiveCamera>, "PerspectiveCamera"},
+    {"thinlens", build<class PerspectiveCamera>, "PerspectiveCamera"},
+    {"perspective_dof", build<class PerspectiveCamera>, "PerspectiveCamera"},
+    {"perspective_depth", build<class PerspectiveCamera>, "PerspectiveCamera"},
+};
+
+constexpr Entry<Sampler> samplers[] = {
+    {"independent", build<class IndependentSampler>, "IndependentSampler"},
+};
+
+constexpr Entry<Filter> filters[] = {
+    {"gaussian", build<class GaussianFilter>, "GaussianFilter"},
+    {"mitchell", build<class MitchellFilter>, "MitchellFilter"},
+    {"tent", build<class TentFilter>, "TentFilter"},
+    {"box", build<class BoxFilter>, "BoxFilter"},
+};
+
+constexpr Entry<Integrator> integrators[] = {
+    {"path", build<class Path>, "Path"},
+    {"path_mats", build<class PathMats>, "PathMats"},
+    {"path_nee", build<class PathNee>, "PathNee"},
+    {"path_ems", build<class PathNee>, "PathNee"},
+    {"path_mis", build<class PathMis>, "PathMis"},
+    {"direct", build<class Direct>, "Direct"},
+    {"direct_ems", build<class DirectEms>, "DirectEms"},
+    {"direct_mats", build<class DirectMats>, "DirectMats"},
+    {"direct_mis", build<class DirectMis>, "DirectMis"},
+    {"direct-mis", build<class DirectMisConfigured>, "DirectMisConfigured"},
+    {"direct_whitted", build<class DirectWhitted>, "DirectWhitted"},
+    {"whitted", build<class Whitted>, "Whitted"},
+    {"normals", build<class NormalsIntegrator>, "NormalsIntegrator"},
+    {"depth", build<class DepthIntegrator>, "DepthIntegrator"},
+    {"ao", build<class AmbientOcclusion>, "AmbientOcclusion"},
+    {"av", build<class AverageVisibility>, "AverageVisibility"},
+    {"simple", build<class Simple>, "Simple"},
+};
+
+namespace {
+
+// What course files also use: kind, type, and what to do instead.
+struct Unsupported {
+    std::string_view kind;
+    std::string_view type;
+    std::string_view instead;
+};
+constexpr Unsupported unsupported_types[] = {
+    {"medium", "", "Plumb renders surfaces in a vacuum only"},
+    {"phase", "", "Plumb renders surfaces in a vacuum only"},
+    {"denoiser", "",
+     "Plumb's pictures are unbiased estimates; denoise the written .exr with another program"},
+    {"integrator", "volume", "Plumb renders surfaces in a vacuum only; use 'path_mis'"},
+    {"integrator", "path_simple", "it is 'path_mats' here"},
+    {"integrator", "photonmapper", "use 'path_mis'"},
+    {"bsdf", "conductor", "use 'mirror', or 'roughconductor' with a small alpha"},
+    {"bsdf", "rough_dielectric", "use 'roughdielectric'"},
+    {"bsdf", "rough_conductor", "use 'roughconductor'"},
+    {"bsdf", "null", "leave the surface out"},
+    {"bsdf", "disney_brdf", "use 'roughsubstrate' or 'roughconductor'"},
+    {"shape", "plane", "use 'rectangle', or an 'obj' mesh"},
+    {"shape", "instance", "repeat the shape with its own toWorld"},
+    {"emitter", "spot_emitter", "use an 'area' emitter on a small shape inside a black tube, or 'point'"},
+    {"emitter", "distantdisk", "use 'environment', or 'directional' for a small disk"},
+    {"emitter", "texturearea", "use 'area' with <texture name=\"radiance\">"},
+    {"emitter", "rectEmitter", "use 'area' on a 'rectangle'"},
+    {"emitter", "diskEmitter", "use 'area' on an 'obj' mesh"},
+    {"emitter", "sphereEmitter", "use 'area' on a 'sphere'"},
+    {"texture", "wood", "use 'textmap' with an image"},
+    {"texture", "imagetexture", "use 'imagetexture_color3f' with <string name=\"filepath\">"},
+    {"texture", "constanttexture", "use 'constant_color'"},
+};
+
+constexpr IgnoredParameter ignored_parameters[] = {
+    {"", "", "name", "", ""},
+    {"", "", "id", "", ""},
+    {"scene", "", "accelerator", "", ""},
+    {"bsdf", "phong", "shininess", "exponent", "1"},
+    {"bsdf", "phong", "specularCoef", "specular-coefficients", "1 1 1"},
+    {"bsdf", "phong", "diffuseCoef", "diffuse-coefficients", "0 0 0"},
+    {"emitter", "environment", "rotate", "rotate", "0"},
+    {"texture", "textmap", "scalex", "scalex", "1"},
+    {"texture", "textmap", "scaley", "scaley", "1"},
+    {"integrator", "ao", "sampling", "", ""},
+    {"integrator", "direct", "warp", "", ""},
+    {"integrator", "direct-mis", "warp", "", ""},
+    {"sampler", "independent", "iteration", "", ""},
+};
+
+template <class Kind>
+void append(std::vector<TypeInfo>& types, std::string_view kind, std::span<const Entry<Kind>> entries)
+{
+    for (const Entry<Kind>& entry : entries)
+        types.push_back({kind, entry.name, plugin_source_manual(entry.class_name)});
+}
+
+std::vector<TypeInfo> all_types()
+{
+    std::vector<TypeInfo> types;
+    append(types, "shape", shape_types());
+    append(types, "bsdf", bsdf_types());
+    append(types, "texture", texture_types());
+    append(types, "emitter", emitter_types());
+    append(types, "camera", camera_types());
+    append(types, "rfilter", filter_types());
+    append(types, "sampler", sampler_types());
+    append(types, "integrator", integrator_types());
+    return types;
+}
+
+} // namespace
+
+std::span<const Entry<Shape>> shape_types()
+{
+    return shapes;
+}
+
+std::span<const Entry<Bsdf>> bsdf_types()
+{
+    return bsdfs;
+}
+
+std::span<const Entry<Texture>> texture_types()
+{
+    return textures;
+}
+
+std::span<const Entry<Emitter>> emitter_types()
+{
+    return emitters;
+}
+
+std::span<const Entry<Camera>> camera_types()
+{
+    return cameras;
+}
+
+std::span<const Entry<Sampler>> sampler_types()
+{
+    return samplers;
+}
+
+std::span<const Entry<Filter>> filter_types()
+{
+    return filters;
+}
+
+std::span<const Entry<Integrator>> integrator_types()
+{
+    return integrators;
+}
+
+const std::vector<TypeInfo>& known_types()
+{
+    static const std::vector<TypeInfo> types = all_types();
+    return types;
+}
+
+std::string_view kind_of_tag(std::string_view tag)
+{
+    if (tag == "mesh") return "shape";
+    for (const TypeInfo& type : known_types())
+        if (type.kind == tag) return type.kind;
+    return {};
+}
+
+std::string_view kind_of_type(std::string_view name)
+{
+    for (const TypeInfo& type : known_types())
+        if (type.name == name) return type.kind;
+    return {};
+}
+
+std::optional<std::string_view> unsupported(std::string_view kind, std::string_view type)
+{
+    for (const Unsupported& entry : unsupported_types)
+        if (entry.kind == kind && entry.type == type) return entry.instead;
+    return {};
+}
+
+const IgnoredParameter* find_ignored(std::string_view kind, std::string_view type, std::string_view name)
+{
+    const auto found = std::find_if(
+        std::begin(ignored_parameters), std::end(ignored_parameters), [&](const IgnoredParameter& entry) {
+            return entry.name == name && (entry.kind.empty() || entry.kind == kind) &&
+                   (entry.type.empty() || entry.type == type);
+        });
+    return found == std::end(ignored_parameters) ? nullptr : found;
+}
+
+std::vector<std::string_view> parameters_in(std::string_view manual)
+{
+    std::vector<std::string_view> names;
+    while (!manual.empty()) {
+        const std::size_t end = std::min(manual.find('\n'), manual.size());
+        const std::string_view line = manual.substr(0, end);
+        manual.remove_prefix(std::min(end + 1, manual.size()));
+        // A parameter's line is indented by exactly four blanks.
+        if (line.size() > 4 && line.substr(0, 4) == "    " && letters.find(line[4]) != letters.npos) {
+            const std::string_view rest = line.substr(4);
+            names.push_back(rest.substr(0, std::min(rest.find_first_not_of(name_characters), rest.size())));
+        }
+    }
+    return names;
+}
+
+} // namespace plumb

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// A scene file as text and as a tree, with the place of every tag, attribute and value. document.cpp is the only user
+// of pugixml.
+
+#include "plumb/error.h"
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace plumb {
+
+// The text of a file, and where its lines start.
+class TextFile {
+public:
+    TextFile(std::filesystem::path path, std::string text);
+
+    const std::filesystem::path& path() const { return path_; }
+    std::filesystem::path folder() const { return path_.parent_path(); }
+    const std::string& text() const { return text_; }
+    SourceLocation place(std::size_t offset, std::size_t length) const;
+
+private:
+    std::filesystem::path path_;
+    std::string text_;
+    std::vector<std::size_t> line_starts_;
+};
+
+struct Attribute {
+    std::string name;
+    std::string value;
+    std::size_t name_offset = 0;
+    std::size_t value_offset = 0;
+    std::size_t value_length = 0; // in the file
+    bool verbatim = true;         // value is exactly what stands in the file: no entities, no variables
+    bool broken = false;          // value is not what was meant, which has been reported
+};
+
+struct Element {
+    std::string tag;
+    std::shared_ptr<const TextFile> file;
+    std::size_t tag_offset = 0; // of '<'
+    std::vector<Attribute> attributes;
+    std::vector<Element> children;
+
+    const Attribute* attribute(std::string_view name) const; // or null
+    std::string value(std::string_view name) const;          // of an attribute; empty without it
+
+    // Places, of one of this element's attributes where there is a parameter. They copy text, so they are made when
+    // they are needed.
+    SourceLocation place() const;
+    SourceLocation name_place(const Attribute& attribute) const;
+    SourceLocation value_place(const Attribute& attribute) const;
+    // Of a part of the value; of all of it where it is not verbatim.
+    SourceLocation part_place(const Attribute& attribute, std::size_t begin, std::size_t length) const;
+};
+
+inline constexpr int max_nesting = 64;
+
+// The bytes of a file. Throws Error.
+std::string read_text(const std::filesystem::path& path);
+
+// The root element. What is wrong with the XML goes to `diagnostics`; nothing where no tree could be made.
+std::optional<Element> parse_document(const std::filesystem::path& path, std::string text,
+                                      Diagnostics& diagnostics);
+
+} // namespace plumb

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: MIT
+#include "scene_file/expand.h"
+
+#include "scene_file/values.h"
+
+#include <algorithm>
+#include <set>
+#include <system_error>
+
+#include <fmt/format.h>
+
+namespace plumb {
+
+namespace {
+
+constexpr std::size_t max_include_depth = 64;
+constexpr std::size_t max_files = 1000; // files that include others twice would otherwise grow without end
+
+bool is_name_start(char c)
+{
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+}
+
+// The name at the start of `text`, possibly empty.
+std::string_view leading_name(std::string_view text)
+{
+    if (text.empty() || !is_name_start(text[0])) return {};
+    std::size_t end = 1;
+    while (end < text.size() &&
+           (is_name_start(text[end]) || (text[end] >= '0' && text[end] <= '9') || text[end] == '-'))
+        ++end;
+    return text.substr(0, end);
+}
+
+// One use of a variable: text.substr(begin, length) is $name, ${name} or $$ (then name is empty).
+struct Use {
+    std::string_view name;
+    std::size_t length = 0; // 0: malformed
+};
+
+Use use_at(std::string_view text, std::size_t dollar)
+{
+    const std::string_view rest = text.substr(dollar + 1);
+    if (rest.starts_with('$')) return {{}, 2};
+    if (rest.starts_with('{')) {
+        const std::string_view name = leading_name(rest.substr(1));
+        const bool closed = !name.empty() && rest.substr(1 + name.size()).starts_with('}');
+        return {name, closed ? name.size() + 3 : 0};
+    }
+    const std::string_view name = leading_name(rest);
+    return {name, name.empty() ? 0 : name.size() + 1};
+}
+
+class Expander {
+public:
+    Expander(const Definitions& definitions, Diagnostics& diagnostics)
+        : definitions_(definitions), values_(definitions), diagnostics_(diagnostics)
+    {}
+
+    Expansion expand(Element root)
+    {
+        files_.push_back(root.file);
+        open_.push_back(identity(root.file->path()));
+        std::vector<Element> children;
+        for (Element& child : root.children) gather(std::move(child), children);
+        root.children = std::move(children);
+        substitute_all(root);
+        reject_unused_definitions();
+        return {std::move(root), std::move(files_)};
+    }
+
+private:
+    static std::filesystem::path identity(const std::filesystem::path& path)
+    {
+        std::error_code status;
+        const auto canonical = std::filesystem::weakly_canonical(path, status);
+        return status ? path : canonical;
+    }
+
+    void gather(Element child, std::vector<Element>& children)
+    {
+        if (child.tag == "default")
+            define(child);
+        else if (child.tag == "include")
+            include(child, children);
+        else
+            children.push_back(std::move(child));
+    }
+
+    void reject_children(const Element& element)
+    {
+        for (const Element& child : element.children)
+            diagnostics_.error(child.place(),
+                               fmt::format("a <{}> cannot contain a <{}>", element.tag, child.tag));
+    }
+
+    void define(Element& element)
+    {
+        reject_children(element);
+        if (!check_attributes(element, {"name", "value"}, {}, diagnostics_)) return;
+        const std::string name = element.value("name");
+        if (leading_name(name) != name || name.empty()) {
+            diagnostics_.error(
+                element.value_place(*element.attribute("name")),
+                fmt::format("'{}' cannot name a value; names consist of letters, digits, - and _, and "
+                            "start with a letter or _",
+                            name));
+            return;
+        }
+        declared_.insert(name);
+        substitute_all(element);
+        values_.emplace(name, element.value("value")); // what is there already wins
+    }
+
+    void include(Element& element, std::vector<Element>& children)
+    {
+        reject_children(element);
+        if (!check_attributes(element, {"filename"}, {}, diagnostics_)) return;
+        substitute_all(element);
+        const auto path = (element.file->folder() / element.value("filename")).lexically_normal();
+        const auto fail = [&](std::string message) {
+            diagnostics_.error(element.value_place(*element.attribute("filename")), std::move(message));
+        };
+        if (std::find(open_.begin(), open_.end(), identity(path)) != open_.end())
+            return fail(fmt::format("'{}' includes itself, directly or through other files", path.string()));
+        if (open_.size() > max_include_depth)
+            return fail(fmt::format("files include each other more than {} levels deep", max_include_depth));
+        if (files_.size() >= max_files)
+            return fail(fmt::format("more than {} files are included", max_files));
+
+        std::optional<Element> root;
+        try {
+            root = parse_document(path, read_text(path), diagnostics_);
+        } catch (const Error& error) {
+            return fail(error.what());
+        }
+        if (!root) return;
+        files_.push_back(root->file);
+        if (root->tag != "scene") {
+            diagnostics_.error(
+                root->place(),
+                fmt::format("the root of an included file must be <scene>, not <{}>", root->tag));
+            return;
+        }
+        check_attributes(*root, {}, {"dialect"}, diagnostics_);
+        if (const Attribute* dialect = root->attribute("dialect"))
+            diagnostics_.warning(root->name_place(*dialect),
+                                 "the dialect of an included file is ignored; that of the main file holds");
+        open_.push_back(identity(path));
+        for (Element& child : root->children) gather(std::move(child), children);
+        open_.pop_back();
+    }
+
+    // Recursion ends: elements are nested at most max_nesting levels.
+    void substitute_all(Element& element)
+    {
+        for (Attribute& attribute : element.attributes) substitute(element, attribute);
+        for (Element& child : element.children) substitute_all(child);
+    }
+
+    void substitute(const Element& element, Attribute& attribute)
+    {
+        const std::string text = attribute.value;
+        std::string result;
+        std::size_t done = 0;
+        for (std::size_t dollar = text.find('$'); dollar != text.npos; dollar = text.find('$', done)) {
+            const Use use = use_at(text, dollar);
+            if (use.length == 0) {
+                diagnostics_.error(
+                    element.part_place(attribute, dollar, 1),
+                    "expected a name after '$', as in $name or ${name}; write $$ for the sign itself");
+                return;
+            }
+            result.append(text, done, dollar - done);
+            done = dollar + use.length;
+            if (use.name.empty())
+                result += '$';
+            else if (const std::string* value = find_value(use.name))
+                result += *value;
+            else
+                fail_undefined(use.name, element.part_place(attribute, dollar, use.length));
+        }
+        if (done == 0) return;
+        attribute.value = result.append(text, done);
+        attribute.verbatim = false;
+    }
+
+    const std::string* find_value(std::string_view name)
+    {
+        used_.emplace(name);
+        const auto found = values_.find(name);
+        return found == values_.end() ? nullptr : &found->second;
+    }
+
+    void fail_undefined(std::string_view name, const SourceLocation& at)
+    {
+        std::vector<std::string_view> known;
+        for (const auto& [known_name, value] : values_) known.push_back(known_name);
+        const std::string_view closest = closest_name(name, known);
+        diagnostics_.error(
+            at, closest.empty()
+                    ? fmt::format("${0} has no value; give it one with -D {0}=... or <default name=\"{0}\" "
+                                  "value=\"...\"/>",
+                                  name)
+                    : fmt::format("${} has no value; did you mean '${}'?", name, closest));
+    }
+
+    void reject_unused_definitions()
+    {
+        std::set<std::string_view> names(used_.begin(), used_.end());
+        names.insert(declared_.begin(), declared_.end());
+        for (const auto& [name, value] : definitions_) {
+            if (names.count(name) > 0) continue;
+            diagnostics_.error({}, fmt::format("-D {}={}: no file of this scene uses ${}{}", name, value,
+                                               name, way_out(name, {names.begin(), names.end()})));
+        }
+    }
+
+    const Definitions& definitions_;
+    Definitions values_;
+    Diagnostics& diagnostics_;
+    std::vector<std::shared_ptr<const TextFile>> files_;
+    std::vector<std::filesystem::path> open_; // the files being read, the main one first
+    std::set<std::string> declared_;          // by <default>
+    std::set<std::string> used_;              // as $name
+};
+
+} // namespace
+
+Expansion expand(Element root, const Definitions& definitions, Diagnostics& diagnostics)
+{
+    return Expander(definitions, diagnostics).expand(std::move(root));
+}
+
+} // namespace plumb

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+#include "plumb/hash.h"
+#include "plumb/scene_file.h"
+#include "scene_file/build.h"
+#include "scene_file/dialects.h"
+#include "scene_file/expand.h"
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+
+#include <fmt/format.h>
+
+namespace plumb {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start)
+{
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// Errors and warnings in the order of the files and their lines; a note stays behind what it belongs to.
+std::vector<Diagnostic> in_file_order(const std::vector<Diagnostic>& diagnostics,
+                                      const std::vector<std::shared_ptr<const TextFile>>& files)
+{
+    struct Group {
+        std::size_t file = 0; // errors without a place come first
+        int line = 0;
+        int column = 0;
+        std::vector<Diagnostic> members;
+    };
+    std::vector<Group> groups;
+    for (const Diagnostic& diagnostic : diagnostics) {
+        if (diagnostic.severity != Severity::note || groups.empty()) groups.emplace_back();
+        Group& group = groups.back();
+        // What is wrong in a mesh's own lines stands where the scene file names the mesh.
+        for (std::size_t i = 0; i < files.size() && group.file == 0; ++i) {
+            if (files[i]->path().string() != diagnostic.location.file) continue;
+            group.file = i + 1;
+            group.line = diagnostic.location.line;
+            group.column = diagnostic.location.column;
+        }
+        group.members.push_back(diagnostic);
+    }
+    std::stable_sort(groups.begin(), groups.end(), [](const Group& a, const Group& b) {
+        return std::tie(a.file, a.line, a.column) < std::tie(b.file, b.line, b.column);
+    });
+    std::vector<Diagnostic> sorted;
+    for (Group& group : groups)
+        std::move(group.members.begin(), group.members.end(), std::back_inserter(sorted));
+    return sorted;
+}
+
+class InputHash {
+public:
+    void add(std::string_view bytes)
+    {
+        hash_.update(fmt::format("{}:", bytes.size()));
+        hash_.update(bytes);
+    }
+
+    void add_file(const std::filesystem::path& path)
+    {
+        std::error_code status;
+        hash_.update(fmt::format("{}:", std::filesystem::file_size(path, status)));
+        std::ifstream file(path, std::ios::binary);
+        std::vector<char> block(1 << 20);
+        while (file) {
+            file.read(block.data(), static_cast<std::streamsize>(block.size()));
+            hash_.update({block.data(), static_cast<std::size_t>(file.gcount())});
+        }
+    }
+
+    std::string hex() const { return hash_.hex(); }
+
+private:
+    Hash128 hash_;
+};
+
+// Of the bytes of every file, and of what the command line and the dialect make of them.
+std::string input_hash(const Expansion& expansion, const LoadContext& context, const LoadOptions& options)
+{
+    InputHash hash;
+    for (const auto& file : expansion.files) hash.add(file->text());
+    for (const std::filesystem::path& file : context.files) hash.add_file(file);
+    for (const auto& [name, value] : options.definitions) hash.add(fmt::format("{}={}", name, value));
+    hash.add(options.integrator.value_or(""));
+    hash.add(options.sampler.value_or(""));
+    if (options.resolution) hash.add(fmt::format("{}x{}", options.resolution->x, options.resolution->y));
+    const Dialect& dialect = context.dialect;
+    hash.add(fmt::format("{} {} {} {} {}", dialect.mirrored_view, dialect.emitters_absorb,
+                         dialect.point_takes_power, dialect.environment_flipped, dialect.environment_scale));
+    return hash.hex();
+}
+
+// The root element must be a <scene>.
+bool check_root(const Element& root, Diagnostics& diagnostics)
+{
+    if (root.tag == "scene") return true;
+    diagnostics.error(root.place(),
+                      root.tag == "test"
+                          ? std::string("a <test> file is not a scene; only <scene> files can be rendered")
+                          : fmt::format("the root of a scene file must be <scene>, not <{}>", root.tag));
+    return false;
+}
+
+[[noreturn]] void fail(const Diagnostics& diagnostics,
+                       const std::vector<std::shared_ptr<const TextFile>>& files)
+{
+    throw SceneError(in_file_order(diagnostics.all(), files));
+}
+
+} // namespace
+
+LoadedScene load_scene(const std::filesystem::path& path, const LoadOptions& options)
+{
+    const auto start = Clock::now();
+
+    // The text becomes one tree.
+    Diagnostics diagnostics;
+    auto document = parse_document(path, read_text(path), diagnostics);
+    if (!document || !check_root(*document, diagnostics)) fail(diagnostics, {});
+    const Expansion expansion =
+        expand(*std::move(document), {options.definitions.begin(), options.definitions.end()}, diagnostics);
+
+    // The tree becomes objects.
+    const Dialect dialect = decide_dialect(
+        expansion.root,
+        {options.dialect, options.emitters_absorb, options.mirrored_view, options.environment_scale},
+        diagnostics);
+    LoadContext context{diagnostics, dialect, options.lenient, {}};
+    SceneParts parts = build_scene(expansion.root, options, context);
+    if (diagnostics.has_errors()) fail(diagnostics, expansion.files);
+    std::string hash = input_hash(expansion, context, options);
+    const double parse_seconds = seconds_since(start);
+
+    // The objects become a scene.
+    const auto build_start = Clock::now();
+    Scene scene(std::move(parts.objects), std::move(parts.lights),
+                {dialect.emitters_absorb, options.instruction_set});
+    try {
+        parts.integrator->prepare(scene);
+    } catch (const Error& error) {
+        diagnostics.error(parts.integrator_at, error.what());
+        fail(diagnostics, expansion.files);
+    }
+    return {.job = {std::move(scene), std::move(parts.camera), std::move(parts.integrator),
+                    std::move(parts.sampler), std::move(parts.filter)},
+            .dialect = dialect,
+            .integrator = std::move(parts.integrator_type),
+            .sampler = std::move(parts.sampler_type),
+            .input_hash = std::move(hash),
+            .warnings = in_file_order(diagnostics.all(), expansion.files),
+            .parse_seconds = parse_seconds,
+            .build_seconds = seconds_since(build_start)};
+}
+
+} // namespace plumb

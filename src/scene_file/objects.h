@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// From one element of the tree to one plugin.
+
+#include "scene_file/catalog.h"
+#include "scene_file/document.h"
+
+namespace plumb {
+
+// What loading needs to know everywhere.
+struct LoadContext {
+    Diagnostics& diagnostics;
+    const Dialect& dialect;
+    bool lenient = false;
+    std::vector<std::filesystem::path> files; // that plugins read, in order, each once
+};
+
+std::string_view kind_of(const Element& element);
+
+// "a <mesh> cannot contain a <camera>", or what is wrong with the tag itself.
+void reject_child(const Element& parent, const Element& child, Diagnostics& diagnostics);
+
+// An element's parameters, ready for the constructor. Children that are neither properties nor textures must have one
+// of the given tags; the caller deals with those.
+class ObjectReader {
+public:
+    ObjectReader(const Element& element, LoadContext& context,
+                 std::initializer_list<std::string_view> child_tags = {});
+
+    Params& params() { return params_; }
+    const std::string& type() const { return type_; }
+
+    // The plugin; or null, when everything that is wrong has been reported.
+    template <class Kind>
+    std::unique_ptr<Kind> build(std::span<const Entry<Kind>> entries)
+    {
+        const Entry<Kind>* entry = find(entries);
+        if (!entry) return nullptr;
+        std::unique_ptr<Kind> object;
+        run(entry->class_name, [&] { object = entry->build(params_); });
+        return object;
+    }
+
+    // For a plugin that cannot be built: checks what can be checked.
+    template <class Kind>
+    void check(std::span<const Entry<Kind>> entries)
+    {
+        if (const Entry<Kind>* entry = find(entries)) check_against_manual(entry->class_name);
+    }
+
+private:
+    template <class Kind>
+    const Entry<Kind>* find(std::span<const Entry<Kind>> entries)
+    {
+        std::vector<std::string_view> names;
+        for (const Entry<Kind>& entry : entries) {
+            if (entry.name == type_) return &entry;
+            names.push_back(entry.name);
+        }
+        if (element_.attribute("type")) fail_unknown_type(names);
+        return nullptr;
+    }
+
+    void read_children(std::initializer_list<std::string_view> child_tags);
+    void add_property(const Element& child);
+    void add_texture(const Element& child);
+    bool is_first(const Element& child, std::string_view name);
+    void fail_unknown_type(const std::vector<std::string_view>& names) const;
+    void run(std::string_view class_name, const std::function<void()>& construct);
+    void check_against_manual(std::string_view class_name);
+    void finish();
+    SourceLocation file_place() const;
+
+    const Element& element_;
+    LoadContext& context_;
+    std::string type_;
+    Params params_;
+    std::map<std::string, SourceLocation, std::less<>>
+        given_; // names of parameters, and where they stand first
+};
+
+} // namespace plumb

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+
+#include "interfaces/plugin.h"
+#include "plumb/shape.h"
+#include "shapes/triangle.h"
+
+namespace plumb {
+
+/// A flat rectangle; toWorld may make a parallelogram of it.
+///
+/// Width runs along the world x axis projected onto the rectangle's plane (along z if the normal is parallel to x),
+/// height along normal x width. The front side, which emitters shine from, is where `normal` points; toWorld is
+/// applied last, to normals by its inverse transpose. uv run from (0, 0) to (1, 1) along width and height.
+///
+///     center    point       the middle                                (default 0 0 0)
+///     width     float       greater than 0                            (default 1)
+///     height    float       greater than 0                            (default 1)
+///     normal    vector      any length but 0                          (default 0 0 1)
+///     toWorld   transform   from these coordinates to the world       (default: the identity)
+///
+///         <shape type="rectangle">
+///             <point name="center" value="0 2 0"/>
+///             <float name="width" value="0.5"/>
+///             <vector name="normal" value="0 -1 0"/>
+///         </shape>
+class Rectangle final : public Shape {
+public:
+    explicit Rectangle(const Params& params)
+    {
+        const Vec3d center(params.point("center", Vec3f(0.f)));
+        const double width = params.number("width", 1.f, Range::positive());
+        const double height = params.number("height", 1.f, Range::positive());
+        const Vec3f given_normal = params.vector("normal", Vec3f(0.f, 0.f, 1.f));
+        const Transform to_world = params.transform("toWorld");
+        if (!(max_component(abs(given_normal)) > 0.f)) {
+            params.fail("normal", "must not be 0: it says where the front side is");
+            return;
+        }
+
+        const Vec3f unit_normal = normalize(given_normal);
+        const Vec3d normal = normalize(Vec3d(unit_normal));
+        const Vec3d along_width = width_axis(normal);
+        const Vec3d u = along_width * (width * 0.5);
+        const Vec3d v = cross(normal, along_width) * (height * 0.5);
+        const Vec3d in_order[4] = {center - u - v, center + u - v, center + u + v, center - u + v};
+        for (std::size_t i = 0; i < 4; ++i) corners_[i] = Vec3f(to_world.point(in_order[i]));
+
+        const Vec3d edge1 = Vec3d(corners_[1]) - Vec3d(corners_[0]);
+        const Vec3d edge2 = Vec3d(corners_[3]) - Vec3d(corners_[0]);
+        const Vec3d crossed = cross(edge1, edge2);
+        const double area = length(crossed);
+        area_ = static_cast<float>(area);
+        if (!(area_ > 0.f) || !std::isfinite(1.f / area_) || !std::isfinite(area_)) {
+            params.fail("toWorld", "leaves the rectangle an area that is no positive float number");
+            return;
+        }
+        normal_ = Vec3f(crossed / area);
+        if (dot(normal_, to_world.normal(unit_normal)) < 0.f) normal_ = -normal_;
+        const Vec3f error1 = triangle_error(triangle(0), area);
+        const Vec3f error2 = triangle_error(triangle(1), area);
+        error_ =
+            Vec3f(std::max(error1.x, error2.x), std::max(error1.y, error2.y), std::max(error1.z, error2.z));
+    }
+
+    void add_to(AccelBuilder& builder) const override { builder.add_triangles(corners_, triangles_); }
+
+    SurfacePoint surface_at(const Ray& ray, std::uint32_t primitive) const override
+    {
+        const TriangleCorners t = triangle(primitive);
+        const Barycentric b = intersect_triangle(ray, t.p0, t.p1, t.p2);
+        const auto first = static_cast<float>(b.u);
+        const auto second = static_cast<float>(b.v);
+        const float both = std::min(static_cast<float>(b.u + b.v), 1.f);
+
+        SurfacePoint at;
+        at.position = triangle_point(t, b);
+        at.error = error_;
+        at.geometric_normal = normal_;
+        at.shading = Frame(normal_);
+        at.uv = primitive == 0 ? Vec2f(both, second) : Vec2f(first, both);
+        at.primitive = primitive;
+        return at;
+    }
+
+    ShapeSample sample_area(double /*u_select*/, Vec2f u) const override
+    {
+        // (u, v) in the barycentric coordinates of the triangle that it lies in.
+        const bool lower = u.y <= u.x;
+        const double x = u.x;
+        const double y = u.y;
+        const Barycentric b = lower ? Barycentric{x - y, y} : Barycentric{x, y - x};
+        return {triangle_point(triangle(lower ? 0 : 1), b), error_, normal_, u, 1.f / area_};
+    }
+
+    float area() const override { return area_; }
+
+    Box3f bounds() const override
+    {
+        Box3f box;
+        for (const Vec3f& p : corners_) box.extendBy(p);
+        return box;
+    }
+
+    std::uint64_t triangle_count() const override { return triangles_.size(); }
+
+private:
+    static Vec3d width_axis(const Vec3d& normal)
+    {
+        constexpr double parallel_below = 1e-6; // sine of the angle between the normal and x
+        const Vec3d projected = Vec3d(1.0, 0.0, 0.0) - normal * normal.x;
+        return length(projected) > parallel_below ? normalize(projected) : Vec3d(0.0, 0.0, 1.0);
+    }
+
+    TriangleCorners triangle(std::uint32_t primitive) const
+    {
+        const AccelBuilder::Triangle& t = triangles_[primitive];
+        return {corners_[t[0]], corners_[t[1]], corners_[t[2]]};
+    }
+
+    static constexpr std::array<AccelBuilder::Triangle, 2> triangles_ = {{{0, 1, 2}, {0, 2, 3}}};
+    std::array<Vec3f, 4> corners_; // at uv = (0, 0), (1, 0), (1, 1), (0, 1)
+    Vec3f normal_{0.f, 0.f, 1.f};
+    Vec3f error_{0.f};
+    float area_ = 1.f;
+};
+
+template std::unique_ptr<Shape> build<Rectangle>(const Params&);
+
+} // namespace plumb

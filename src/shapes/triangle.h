@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// What triangle meshes and rectangles share: points of a triangle, and how far they may be from what Embree traces.
+
+#include "plumb/intersection.h"
+#include "plumb/math.h"
+
+namespace plumb {
+
+struct TriangleCorners {
+    const Vec3f& p0;
+    const Vec3f& p1;
+    const Vec3f& p2;
+};
+
+// Not normalised: its length is twice the area. Zero for triangles without area.
+inline Vec3d triangle_cross(const TriangleCorners& t)
+{
+    const Vec3d corner(t.p0);
+    return cross(Vec3d(t.p1) - corner, Vec3d(t.p2) - corner);
+}
+
+// (1 - u - v) p0 + u p1 + v p2.
+inline Vec3f triangle_point(const TriangleCorners& t, const Barycentric& b)
+{
+    const Vec3d corner(t.p0);
+    const Vec3d p = corner + (Vec3d(t.p1) - corner) * b.u + (Vec3d(t.p2) - corner) * b.v;
+    return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+}
+
+// SurfacePoint::error of a point of the triangle. normal_length: twice the area.
+//
+// Embree subtracts the ray's origin from the corners and takes the normal from products of their differences, all
+// in single precision. On each axis that errs by a few roundings of the coordinates; and in slivers the normal
+// itself errs, by an angle that moves the plane by the product of the three extents divided by twice the area.
+// Both vanish in a plane perpendicular to an axis, as they should. The factors were found by experiment: see
+// tests/statistical/self_intersection_test.cpp.
+inline Vec3f triangle_error(const TriangleCorners& t, double normal_length)
+{
+    constexpr float coordinate_factor = 4.f * unit_roundoff;
+    constexpr double sliver_factor = 4.0 * unit_roundoff;
+    const auto largest = [](float a, float b, float c) {
+        return std::max({std::abs(a), std::abs(b), std::abs(c)});
+    };
+    const auto extent = [](float a, float b, float c) {
+        return static_cast<double>(std::max({a, b, c}) - std::min({a, b, c}));
+    };
+    const double volume =
+        extent(t.p0.x, t.p1.x, t.p2.x) * extent(t.p0.y, t.p1.y, t.p2.y) * extent(t.p0.z, t.p1.z, t.p2.z);
+    const auto tilt = normal_length > 0.0 ? static_cast<float>(sliver_factor * volume / normal_length) : 0.f;
+    return {coordinate_factor * largest(t.p0.x, t.p1.x, t.p2.x) + tilt,
+            coordinate_factor * largest(t.p0.y, t.p1.y, t.p2.y) + tilt,
+            coordinate_factor * largest(t.p0.z, t.p1.z, t.p2.z) + tilt};
+}
+
+} // namespace plumb

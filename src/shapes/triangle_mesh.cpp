@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+
+#include "interfaces/plugin.h"
+#include "plumb/distribution.h"
+#include "plumb/mesh.h"
+#include "plumb/sampling.h"
+#include "plumb/shape.h"
+#include "shapes/triangle.h"
+
+#include <utility>
+
+namespace plumb {
+
+/// A triangle mesh from a Wavefront OBJ file. Faces with more than three corners become triangles.
+///
+/// The front side of a triangle, which emitters shine from, is the one that its vertex normals point to; without
+/// normals, the one from which its corners run counter-clockwise. Normals are interpolated for shading; without
+/// them the mesh is faceted. Without texture coordinates, uv are the barycentric coordinates of the second and
+/// third corner. toWorld may mirror: normals go through its inverse transpose, and the side follows them.
+///
+///     filename   string      the OBJ file, relative to the scene file   (required)
+///     toWorld    transform   from the file's coordinates to the world   (default: the identity)
+///
+///         <mesh type="obj">
+///             <string name="filename" value="meshes/teapot.obj"/>
+///             <transform name="toWorld"><translate value="0, 1, 0"/></transform>
+///         </mesh>
+class TriangleMesh final : public Shape {
+public:
+    explicit TriangleMesh(const Params& params)
+    {
+        const std::filesystem::path file = params.file("filename");
+        const Transform to_world = params.transform("toWorld");
+        if (params.missing_file()) return;
+        mesh_ = read_obj(file);
+        if (!mesh_.warning.empty()) params.warn("filename", mesh_.warning);
+        if (!to_world.is_identity()) apply(to_world);
+        for (const Vec3f& p : mesh_.positions)
+            if (!is_finite(p)) {
+                params.fail("toWorld", "moves vertices further away than a float can tell");
+                return;
+            }
+
+        std::vector<double> areas;
+        areas.reserve(mesh_.triangles.size());
+        for (std::uint32_t i = 0; i < mesh_.triangles.size(); ++i)
+            areas.push_back(length(triangle_cross(corners(i))) * 0.5);
+        choice_ = DiscreteDistribution(areas);
+        area_ = static_cast<float>(choice_.sum());
+        if (!(area_ > 0.f)) throw Error("every triangle of '" + file.string() + "' has an area of 0");
+    }
+
+    void add_to(AccelBuilder& builder) const override
+    {
+        builder.add_triangles(mesh_.positions, mesh_.triangles);
+    }
+
+    SurfacePoint surface_at(const Ray& ray, std::uint32_t primitive) const override
+    {
+        const TriangleCorners t = corners(primitive);
+        const Barycentric b = intersect_triangle(ray, t.p0, t.p1, t.p2);
+        const Vec3d normal = triangle_cross(t);
+        const double normal_length = length(normal);
+
+        SurfacePoint at;
+        at.position = triangle_point(t, b);
+        at.error = triangle_error(t, normal_length);
+        at.geometric_normal =
+            normal_length > 0.0 ? front_normal(primitive, normal / normal_length) : normalize(-ray.direction);
+        at.shading = Frame(shading_normal(primitive, b, at.geometric_normal));
+        at.uv = uv(primitive, b);
+        at.primitive = primitive;
+        return at;
+    }
+
+    ShapeSample sample_area(double u_select, Vec2f u) const override
+    {
+        const std::uint32_t primitive = choice_.sample(u_select).index;
+        const Vec2f uv_in_triangle = square_to_triangle(u);
+        const Barycentric b{uv_in_triangle.x, uv_in_triangle.y};
+        const TriangleCorners t = corners(primitive);
+        const Vec3d normal = triangle_cross(t);
+        const double normal_length = length(normal);
+        return {triangle_point(t, b), triangle_error(t, normal_length),
+                front_normal(primitive, normal / normal_length), uv(primitive, b), 1.f / area_};
+    }
+
+    float area() const override { return area_; }
+
+    Box3f bounds() const override
+    {
+        Box3f box;
+        for (const MeshData::Triangle& triangle : mesh_.triangles)
+            for (const std::uint32_t vertex : triangle) box.extendBy(mesh_.positions[vertex]);
+        return box;
+    }
+
+    std::uint64_t triangle_count() const override { return mesh_.triangles.size(); }
+
+private:
+    void apply(const Transform& to_world)
+    {
+        for (Vec3f& p : mesh_.positions) p = to_world.point(p);
+        for (Vec3f& n : mesh_.normals) n = normalize(to_world.normal(n));
+    }
+
+    TriangleCorners corners(std::uint32_t primitive) const
+    {
+        const MeshData::Triangle& t = mesh_.triangles[primitive];
+        return {mesh_.positions[t[0]], mesh_.positions[t[1]], mesh_.positions[t[2]]};
+    }
+
+    // On the side of the vertex normals.
+    Vec3f front_normal(std::uint32_t primitive, const Vec3d& unit) const
+    {
+        const Vec3f normal(static_cast<float>(unit.x), static_cast<float>(unit.y),
+                           static_cast<float>(unit.z));
+        if (mesh_.normals.empty()) return normal;
+        const MeshData::Triangle& t = mesh_.triangles[primitive];
+        const Vec3f sum = mesh_.normals[t[0]] + mesh_.normals[t[1]] + mesh_.normals[t[2]];
+        return dot(sum, normal) < 0.f ? -normal : normal;
+    }
+
+    Vec3f shading_normal(std::uint32_t primitive, const Barycentric& b, const Vec3f& geometric_normal) const
+    {
+        constexpr float shortest = 1e-3f; // below, the three normals cancel and have no direction
+        if (mesh_.normals.empty()) return geometric_normal;
+        const Vec3f normal = interpolate(mesh_.normals, primitive, b);
+        return length_squared(normal) > sqr(shortest) ? normalize(normal) : geometric_normal;
+    }
+
+    Vec2f uv(std::uint32_t primitive, const Barycentric& b) const
+    {
+        if (mesh_.uvs.empty()) return {static_cast<float>(b.u), static_cast<float>(b.v)};
+        return interpolate(mesh_.uvs, primitive, b);
+    }
+
+    template <class T>
+    T interpolate(const std::vector<T>& values, std::uint32_t primitive, const Barycentric& b) const
+    {
+        const MeshData::Triangle& t = mesh_.triangles[primitive];
+        return values[t[0]] * static_cast<float>(1.0 - b.u - b.v) + values[t[1]] * static_cast<float>(b.u) +
+               values[t[2]] * static_cast<float>(b.v);
+    }
+
+    MeshData mesh_; // world space
+    DiscreteDistribution choice_;
+    float area_ = 0.f;
+};
+
+template std::unique_ptr<Shape> build<TriangleMesh>(const Params&);
+
+} // namespace plumb

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+
+#include "interfaces/plugin.h"
+#include "plumb/texture.h"
+#include "textures/bitmap.h"
+
+namespace plumb {
+
+/// A picture: its lower left corner at uv = (0, 0), its upper right corner at (1, 1), repeated.
+///
+/// Pixels are squares with their value in the middle: column u width - 1/2 and row (1 - v) height - 1/2, interpolated
+/// bilinearly. Pictures of 8-bit or 16-bit integers are taken to be sRGB and decoded to linear light; floating-point
+/// pictures are linear already.
+///
+///     filepath   string    the picture, in any format that OpenImageIO reads
+///     raw        boolean   take integers as value / maximum, without decoding sRGB   (default false)
+///
+/// For example:
+///
+///         <texture type="imagetexture_color3f" name="albedo">
+///             <string name="filepath" value="moon.jpg"/>
+///         </texture>
+class ImageTexture final : public Texture {
+public:
+    explicit ImageTexture(const Params& p) : bitmap_(p.file("filepath"), !p.boolean("raw", false), Color(1.f))
+    {}
+
+    Color color(const Vec2f& uv) const override
+    {
+        const float x = uv.x * static_cast<float>(bitmap_.width()) - 0.5f;
+        const float y = (1.f - uv.y) * static_cast<float>(bitmap_.height()) - 0.5f;
+        return bitmap_.bilinear(x, y, Bitmap::Rows::repeat);
+    }
+
+    Color mean() const override { return bitmap_.mean(); }
+    float min_value() const override { return bitmap_.min_value(); }
+    float max_value() const override { return bitmap_.max_value(); }
+
+private:
+    Bitmap bitmap_;
+};
+
+template std::unique_ptr<Texture> build<ImageTexture>(const Params&);
+
+} // namespace plumb

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+
+#include "interfaces/plugin.h"
+#include "plumb/texture.h"
+#include "textures/bitmap.h"
+
+#include <fmt/format.h>
+
+namespace plumb {
+
+/// A picture, looked up as the Zaragoza course does: against u and v, and without decoding sRGB.
+///
+/// The texel at column x = (1 - u) width and row y = (1 - v) height, counted from the upper left corner, where texel
+/// (i, j) stands at x = i and y = j; in between it is interpolated bilinearly, and it repeats. Integers become value /
+/// maximum. The parameters `scalex` and `scaley`, which the course reads and never uses, are ignored. To show
+/// photographs in their true colours, use `imagetexture_color3f`.
+///
+///     filename   string   the picture, in any format that OpenImageIO reads
+///     color      color    multiplies the picture   (default 1)
+///
+/// For example:
+///
+///         <texture type="textmap" name="albedo">
+///             <string name="filename" value="textures/wood.png"/>
+///         </texture>
+class TextMap final : public Texture {
+public:
+    explicit TextMap(const Params& p) : bitmap_(p.file("filename"), false, p.color("color", Color(1.f)))
+    {
+        for (const char* name : {"scalex", "scaley"})
+            if (p.number(name, 1.f) != 1.f)
+                p.warn(name,
+                       fmt::format(
+                           "'{}' of a textmap has no effect, as in the course's renderer; scale the mesh's "
+                           "texture coordinates",
+                           name));
+    }
+
+    Color color(const Vec2f& uv) const override
+    {
+        const float x = (1.f - uv.x) * static_cast<float>(bitmap_.width());
+        const float y = (1.f - uv.y) * static_cast<float>(bitmap_.height());
+        return bitmap_.bilinear(x, y, Bitmap::Rows::repeat);
+    }
+
+    Color mean() const override { return bitmap_.mean(); }
+    float min_value() const override { return bitmap_.min_value(); }
+    float max_value() const override { return bitmap_.max_value(); }
+
+private:
+    Bitmap bitmap_;
+};
+
+template std::unique_ptr<Texture> build<TextMap>(const Params&);
+
+} // namespace plumb

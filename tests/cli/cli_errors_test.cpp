@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+
+// What the program says and how it exits when something is wrong.
+
+#include "cli/small_scene.h"
+#include "support/catch.h"
+
+using namespace plumb;
+
+TEST_CASE("a wrong command line exits with 2 and says why", "[cli][errors]")
+{
+    const SceneFolder folder;
+    const auto complaint = [&](const Names& words) {
+        const RunResult result = folder.run(words);
+        CHECK(result.exit_code == 2);
+        CHECK(result.out.empty());
+        return result.err;
+    };
+    CHECK(complaint({}) == "error: no scene file given; 'renderer --help' shows how\n");
+    CHECK(complaint({"scene.xml", "--sp", "4"}) == "error: unknown option '--sp'; did you mean '--spp'?\n");
+    CHECK(complaint({"scene.xml", "--spp", "0"}) ==
+          "error: --spp must be an integer from 1 to 67108864, not '0'\n");
+    CHECK(complaint({"scene.xml", "--threads", "0"}) ==
+          "error: --threads must be an integer from 1 to 1024, not '0'\n");
+    CHECK(complaint({"scene.xml", "-o", "a.exr", "-o", "a.exr"}) ==
+          "error: 'a.exr' is to be written twice\n");
+    const std::string absolute = (folder / "a.exr").string();
+    CHECK(complaint({"scene.xml", "-o", "a.exr", "-o", absolute}) ==
+          "error: '" + absolute + "' is to be written twice\n");
+    CHECK(complaint({"types", "difuse"}) == "error: unknown type 'difuse'; did you mean 'diffuse'?\n");
+    CHECK(folder.files() == Names{"scene.xml"});
+}
+
+TEST_CASE("a wrong scene exits with 1, says where, and writes nothing", "[cli][errors]")
+{
+    const SceneFolder folder;
+    const auto complaint = [&](const Names& words) {
+        const Names before = folder.files();
+        const RunResult result = folder.run(words);
+        CHECK(result.exit_code == 1);
+        CHECK(result.out.empty());
+        CHECK(folder.files() == before);
+        return result.err;
+    };
+    CHECK(complaint({"none.xml"}) == "error: there is no scene file 'none.xml'\n");
+    CHECK(complaint({"tpyes"}) == "error: there is no scene file 'tpyes'; did you mean the verb 'types'?\n");
+    CHECK_THAT(complaint({"scene.xml", "--crop", "40,0,9,1"}),
+               ContainsSubstring("error: the crop 40,0,9,1 is not inside the picture of 48x36 pixels\n"));
+    CHECK_THAT(complaint({"scene.xml", "--integrator", "path_miss"}),
+               ContainsSubstring("did you mean 'path_mis'?"));
+
+    folder.write("bad.xml",
+                 small_scene(R"(<integrator type="path_mis"><float name="rrDeph" value="3"/></integrator>)"));
+    const std::string error = complaint({"bad.xml", "-o", "bad.exr", "-o", "bad.png", "--json", "bad.json"});
+    CHECK_THAT(error,
+               ContainsSubstring("bad.xml:2:47: error: unknown parameter 'rrDeph' for integrator 'path_mis'; "
+                                 "did you mean 'rrDepth'?\n"));
+    CHECK_THAT(error, ContainsSubstring("<float name=\"rrDeph\""));
+    CHECK_THAT(error, ContainsSubstring("^~~~~~\n"));
+    CHECK(folder.run({"bad.xml", "--lenient", "-o", "lenient.exr"}).exit_code == 0);
+}
+
+TEST_CASE("an output that cannot be written is found out before rendering", "[cli][errors]")
+{
+    const SceneFolder folder;
+    const auto complaint = [&](const Names& words) {
+        // Were it rendered first, this would take hours.
+        Names all = {"scene.xml", "--spp", "67108864", "--size", "1024x1024"};
+        all.insert(all.end(), words.begin(), words.end());
+        const Names before = folder.files();
+        const RunResult result = folder.run(all);
+        CHECK(result.exit_code == 1);
+        CHECK(folder.files() == before);
+        return result.err;
+    };
+    CHECK_THAT(complaint({"-o", "none/a.exr"}), ContainsSubstring("none/a.exr"));
+    CHECK_THAT(complaint({"-o", "a.xyz"}), ContainsSubstring("a.xyz"));
+    CHECK_THAT(complaint({"-o", "a"}), ContainsSubstring("'a'"));
+    CHECK_THAT(complaint({"-o", "scene.xml/a.exr"}), ContainsSubstring("scene.xml/a.exr"));
+    CHECK_THAT(complaint({"-o", "a.exr", "-o", "/proc/a.png"}), ContainsSubstring("/proc/a.png"));
+    CHECK(complaint({"-o", "a.exr", "--json", "none/a.json"}) ==
+          "error: cannot write 'none/a.json': No such file or directory\n");
+    std::filesystem::create_directory(folder / "folder.exr");
+    CHECK_THAT(complaint({"-o", "folder.exr"}), ContainsSubstring("folder.exr"));
+    folder.write("old.exr", "not touched");
+    CHECK_THAT(complaint({"-o", "old.exr", "-o", "none/a.exr"}), ContainsSubstring("none/a.exr"));
+    CHECK(read_bytes(folder / "old.exr") == "not touched");
+}

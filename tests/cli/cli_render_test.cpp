@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+
+// What the program writes.
+
+#include "cli/small_scene.h"
+#include "plumb/image.h"
+#include "support/catch.h"
+
+#include <cstring>
+#include <map>
+
+using namespace plumb;
+
+namespace {
+
+std::map<std::string, MetadataValue> header(const std::filesystem::path& image)
+{
+    const Image read = read_image(image, false);
+    return {read.metadata.begin(), read.metadata.end()};
+}
+
+std::string text(const std::map<std::string, MetadataValue>& header, const std::string& name)
+{
+    const auto found = header.find(name);
+    if (found == header.end()) return "no " + name;
+    const auto* value = std::get_if<std::string>(&found->second);
+    return value ? *value : name + " is no text";
+}
+
+} // namespace
+
+TEST_CASE("a scene becomes an image", "[cli][render]")
+{
+    const SceneFolder folder;
+    const RunResult result = folder.run({"scene.xml", "-o", "a.exr", "-o", "b.png"});
+    INFO(result.err);
+    REQUIRE(result.exit_code == 0);
+    CHECK(result.out.empty());
+    CHECK_THAT(result.err, ContainsSubstring("dialect: plumb ("));
+    CHECK_THAT(result.err, ContainsSubstring("a.exr and b.png: 6.91 k samples in "));
+    CHECK_THAT(result.err, ContainsSubstring(" Mrays/s\n"));
+    CHECK(result.err.find('\r') == std::string::npos); // a bar is for terminals
+    CHECK(folder.files() == Names{"a.exr", "b.png", "scene.xml"});
+
+    const Image image = read_image(folder / "a.exr", false);
+    CHECK(image.full_width() == 48);
+    CHECK(image.full_height() == 36);
+    CHECK(image.channel_names() == Names{"R", "G", "B"});
+    float brightest = 0.f;
+    for (int y = 0; y < 36; ++y)
+        for (int x = 0; x < 48; ++x) brightest = std::max(brightest, max_component(image.color(x, y)));
+    CHECK(brightest > 0.1f);
+}
+
+TEST_CASE("without -o the names come from the scene and its samples", "[cli][render]")
+{
+    const SceneFolder folder;
+    folder.write("scenes/a.b.xml", small_scene());
+    REQUIRE(folder.run({"scenes/a.b.xml"}).exit_code == 0);
+    REQUIRE(folder.run({"scene.xml", "--spp", "2"}).exit_code == 0);
+    CHECK(folder.files() == Names{"a.b_4.exr", "a.b_4.png", "scene.xml", "scene_2.exr", "scene_2.png",
+                                  "scenes", "scenes/a.b.xml"});
+}
+
+TEST_CASE("identical runs write identical files", "[cli][render]")
+{
+    const SceneFolder folder;
+    std::filesystem::create_directory(folder / "elsewhere");
+    REQUIRE(folder.run({"scene.xml", "-o", "a.exr", "-o", "a.png", "--threads", "1"}).exit_code == 0);
+    for (const char* threads : {"1", "3", "16"}) {
+        const std::string scene = (folder / "scene.xml").string(); // its folder is not in the header
+        REQUIRE(folder.run({scene, "-o", "elsewhere/b.exr", "-o", "b.png", "--threads", threads}).exit_code ==
+                0);
+        CHECK(read_bytes(folder / "a.exr") == read_bytes(folder / "elsewhere/b.exr"));
+        CHECK(read_bytes(folder / "a.png") == read_bytes(folder / "b.png"));
+    }
+    REQUIRE(folder.run({"scene.xml", "-o", "c.exr", "--seed", "1"}).exit_code == 0);
+    CHECK(read_bytes(folder / "a.exr") != read_bytes(folder / "c.exr"));
+}
+
+TEST_CASE("a crop is that part of the whole, bit for bit", "[cli][render]")
+{
+    const SceneFolder folder;
+    REQUIRE(folder.run({"scene.xml", "-o", "whole.exr"}).exit_code == 0);
+    REQUIRE(folder.run({"scene.xml", "-o", "crop.exr", "--crop", "11,5,20,17"}).exit_code == 0);
+    const Image whole = read_image(folder / "whole.exr", false);
+    const Image crop = read_image(folder / "crop.exr", false);
+    CHECK(crop.data_window() == PixelRect{11, 5, 20, 17});
+    CHECK(crop.full_width() == 48);
+    CHECK(crop.full_height() == 36);
+    int different = 0;
+    for (int y = 5; y < 22; ++y)
+        for (int x = 11; x < 31; ++x)
+            different += std::memcmp(whole.pixel(x, y), crop.pixel(x, y), 3 * sizeof(float)) != 0;
+    CHECK(different == 0);
+}
+
+TEST_CASE("options change the scene", "[cli][render]")
+{
+    const SceneFolder folder;
+    folder.write("defined.xml",
+                 small_scene(R"(<default name="how" value="path_nee"/><integrator type="$how"/>)"));
+    REQUIRE(folder
+                .run({"scene.xml",
+                      "-o",
+                      "a.exr",
+                      "--size",
+                      "20x10",
+                      "--spp",
+                      "3",
+                      "--integrator",
+                      "normals",
+                      "--isa",
+                      "sse4.2",
+                      "--seed",
+                      "18446744073709551615",
+                      "--mirror",
+                      "on",
+                      "--emitters",
+                      "absorb",
+                      "--dialect",
+                      "epfl",
+                      "--envmap-scale",
+                      "0.5"})
+                .exit_code == 0);
+    const auto changed = header(folder / "a.exr");
+    CHECK(read_image(folder / "a.exr", false).full_width() == 20);
+    CHECK(text(changed, "plumb:integrator") == "normals");
+    CHECK(text(changed, "plumb:seed") == "18446744073709551615");
+    CHECK(text(changed, "plumb:instructionSet") == "sse4.2");
+    CHECK(text(changed, "plumb:dialect") == "epfl");
+    CHECK(text(changed, "plumb:mirror") == "on");
+    CHECK(text(changed, "plumb:emitters") == "absorb");
+
+    REQUIRE(folder.run({"defined.xml", "-o", "b.exr", "-D", "how=path"}).exit_code == 0);
+    CHECK(text(header(folder / "b.exr"), "plumb:integrator") == "path");
+    CHECK(text(header(folder / "b.exr"), "plumb:definitions") == "how=path");
+    REQUIRE(folder.run({"defined.xml", "-o", "c.exr"}).exit_code == 0);
+    CHECK(text(header(folder / "c.exr"), "plumb:integrator") == "path_nee");
+}
+
+TEST_CASE("the header says how to make the image again", "[cli][header]")
+{
+    const SceneFolder folder;
+    REQUIRE(folder.run({(folder / "scene.xml").string(), "-o", "a.exr"}).exit_code == 0);
+    const auto found = header(folder / "a.exr");
+    CHECK(text(found, "Software") == "Plumb " PLUMB_VERSION);
+    CHECK(text(found, "plumb:scene") == "scene.xml");
+    CHECK(text(found, "plumb:inputHash").size() == 32);
+    CHECK(text(found, "plumb:integrator") == "path_mis");
+    CHECK(text(found, "plumb:sampler") == "independent");
+    CHECK(text(found, "plumb:seed") == "0");
+    CHECK(text(found, "plumb:dialect") == "plumb");
+    CHECK_FALSE(text(found, "plumb:dialectReason").empty());
+    CHECK(text(found, "plumb:emitters") == "scatter");
+    CHECK(text(found, "plumb:mirror") == "off");
+    CHECK(text(found, "plumb:instructionSet") == "avx2");
+    CHECK(text(found, "plumb:leftOut") == "0");
+    REQUIRE(found.count("plumb:samplesPerPixel") == 1);
+    CHECK(std::get<int>(found.at("plumb:samplesPerPixel")) == 4);
+
+    // The camera looks from (0, 1.5, 5) at (0, 0.7, 0): row vector (world point, 1) times matrix.
+    REQUIRE(found.count("worldToCamera") == 1);
+    const auto matrix = std::get<std::vector<float>>(found.at("worldToCamera"));
+    REQUIRE(matrix.size() == 16);
+    const auto camera = [&](double x, double y, double z, std::size_t axis) {
+        return x * static_cast<double>(matrix[axis]) + y * static_cast<double>(matrix[4 + axis]) +
+               z * static_cast<double>(matrix[8 + axis]) + static_cast<double>(matrix[12 + axis]);
+    };
+    for (const std::size_t axis : {0u, 1u, 2u})
+        CHECK(camera(0.0, 1.5, 5.0, axis) == Approx(0.0).margin(1e-5));
+    CHECK(camera(0.0, 0.7, 0.0, 0) == Approx(0.0).margin(1e-5));
+    CHECK(camera(0.0, 0.7, 0.0, 1) == Approx(0.0).margin(1e-5));
+    CHECK(camera(0.0, 0.7, 0.0, 2) == Approx(std::sqrt(0.8 * 0.8 + 25.0)));
+    CHECK(camera(-1.0, 0.7, 0.0, 0) == Approx(1.0)); // +x is left
+
+    // One byte of the input changes the hash.
+    folder.write("other/scene.xml", small_scene() + " ");
+    REQUIRE(folder.run({"other/scene.xml", "-o", "b.exr"}).exit_code == 0);
+    CHECK(text(header(folder / "b.exr"), "plumb:inputHash") != text(found, "plumb:inputHash"));
+
+    // No place and no machine.
+    const std::string bytes = read_bytes(folder / "a.exr");
+    CHECK(bytes.find(folder.path().string()) == std::string::npos);
+}

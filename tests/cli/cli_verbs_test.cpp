@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+
+// What the program prints.
+
+#include "cli/small_scene.h"
+#include "plumb/scene_file.h"
+#include "support/catch.h"
+
+using namespace plumb;
+
+TEST_CASE("--json reports the run", "[cli][json]")
+{
+    const SceneFolder folder;
+    const RunResult result = folder.run({"scene.xml", "-o", "a.exr", "--json", "a.json", "--threads", "2"});
+    REQUIRE(result.exit_code == 0);
+    CHECK(folder.files() == Names{"a.exr", "a.json", "scene.xml"});
+    const std::string json = read_bytes(folder / "a.json");
+    for (const char* part :
+         {"\"scene\": \"scene.xml\"", "\"name\": \"plumb\"", "\"integrator\": \"path_mis\"", "\"spp\": 4",
+          "\"resolution\": [\n    48,\n    36\n  ]", "\"crop\": null", "\"camera\": 6912,", "\"threads\": 2",
+          "\"instruction_set\": \"avx2\"", "\"outputs\": [\n    \"a.exr\"\n  ]", "\"first\": null"})
+        CHECK_THAT(json, ContainsSubstring(part));
+
+    SECTION("to standard output")
+    {
+        const RunResult printed = folder.run({"scene.xml", "-o", "b.exr", "--json", "-", "--quiet"});
+        CHECK(printed.exit_code == 0);
+        CHECK(printed.err.empty());
+        CHECK(printed.out.starts_with("{\n"));
+        CHECK(printed.out.ends_with("}\n"));
+    }
+    SECTION("standard output that is full is an error")
+    {
+        const RunResult full =
+            folder.run({"scene.xml", "-o", "b.exr", "--json", "-", "--quiet"}, "/dev/full");
+        CHECK(full.exit_code == 1);
+        CHECK(full.err == "error: cannot write to standard output: No space left on device\n");
+    }
+}
+
+TEST_CASE("--quiet prints nothing, --verbose more", "[cli][log]")
+{
+    const SceneFolder folder;
+    const RunResult quiet = folder.run({"scene.xml", "-o", "a.exr", "--quiet"});
+    CHECK(quiet.exit_code == 0);
+    CHECK(quiet.out.empty());
+    CHECK(quiet.err.empty());
+    CHECK(folder.run({"none.xml", "--quiet"}).err == "error: there is no scene file 'none.xml'\n");
+
+    const RunResult verbose = folder.run({"scene.xml", "-o", "a.exr", "--verbose"});
+    CHECK(verbose.exit_code == 0);
+    CHECK(verbose.out.empty());
+    for (const char* fact :
+         {"scene: objects 4, triangles ", "emitters 1\n", "picture: 48 x 36 pixels, 4 samples each, seed 0",
+          "integrator: path_mis; sampler: independent", "embree: ", "hash "})
+        CHECK_THAT(verbose.err, ContainsSubstring(fact));
+}
+
+TEST_CASE("types lists every plugin and prints manuals", "[cli][types]")
+{
+    const SceneFolder folder;
+    const RunResult list = folder.run({"types"});
+    CHECK(list.exit_code == 0);
+    CHECK(list.err.empty());
+    REQUIRE(known_types().size() > 40);
+    for (const TypeInfo& type : known_types()) {
+        INFO(type.kind << " " << type.name);
+        CHECK_THAT(list.out, ContainsSubstring("\n  " + std::string(type.name) + " "));
+        CHECK_FALSE(type.manual.empty());
+    }
+    const RunResult manual = folder.run({"types", "diffuse"});
+    CHECK(manual.exit_code == 0);
+    CHECK_THAT(manual.out, ContainsSubstring("bsdf 'diffuse'\n"));
+    CHECK_THAT(manual.out, ContainsSubstring("    albedo "));
+}
+
+TEST_CASE("info prints what the header knows", "[cli][info]")
+{
+    const SceneFolder folder;
+    REQUIRE(folder.run({"scene.xml", "-o", "a.exr", "--crop", "1,2,30,20"}).exit_code == 0);
+    const RunResult info = folder.run({"info", "a.exr"});
+    CHECK(info.exit_code == 0);
+    CHECK(info.err.empty());
+    for (const char* part : {"a.exr\n", " 48 x 36\n", " 1,2,30,20\n", " R G B\n", "plumb:scene",
+                             "plumb:inputHash", "plumb:integrator", " path_mis\n", "worldToCamera"})
+        CHECK_THAT(info.out, ContainsSubstring(part));
+
+    const RunResult none = folder.run({"info", "none.exr"});
+    CHECK(none.exit_code == 1);
+    CHECK_THAT(none.err, ContainsSubstring("none.exr"));
+    CHECK(folder.run({"info", "scene.xml"}).exit_code == 1);
+}
+
+TEST_CASE("replay prints the path of one sample", "[cli][replay]")
+{
+    const SceneFolder folder;
+    const Names words = {"replay", "scene.xml", "--pixel", "24,30", "--sample", "3", "--quiet"};
+    const RunResult replay = folder.run(words);
+    INFO(replay.err);
+    REQUIRE(replay.exit_code == 0);
+    CHECK_THAT(replay.out, ContainsSubstring("sample 3 of pixel 24,30, seed 0, integrator path_mis\n"));
+    for (const char* part : {"\nray ", "\nhit ", "\nvalue ", "\nweight ", "\nverdict   accepted\n"})
+        CHECK_THAT(replay.out, ContainsSubstring(part));
+    CHECK(folder.run(words).out == replay.out);
+
+    Names other = words;
+    other.insert(other.end(), {"--seed", "1"});
+    CHECK(folder.run(other).out != replay.out);
+    const RunResult outside =
+        folder.run({"replay", "scene.xml", "--pixel", "48,0", "--sample", "0", "--quiet"});
+    CHECK(outside.exit_code == 1);
+    CHECK(outside.err == "error: pixel 48,0 is not inside the picture of 48x36 pixels\n");
+    CHECK(folder.files() == Names{"scene.xml"});
+}
+
+TEST_CASE("help and version go to standard output", "[cli][help]")
+{
+    const SceneFolder folder;
+    CHECK(folder.run({"--version"}).out == "Plumb " PLUMB_VERSION "\n");
+    const RunResult help = folder.run({"--help"});
+    CHECK(help.exit_code == 0);
+    CHECK(help.err.empty());
+    CHECK(help.out.starts_with("usage: renderer SCENE"));
+}
+
+TEST_CASE("closed streams and pipes do no harm", "[cli][console]")
+{
+    const SceneFolder folder;
+    const auto shell = [&](const std::string& command) {
+        return run_program({"/bin/sh", "-c", command, PLUMB_RENDERER}, folder.path());
+    };
+    // The reader is gone before anything is written: no signal, no message.
+    const RunResult pipe = shell("{ sleep 0.2; \"$0\" types; echo exit $? >&2; } | true");
+    CHECK(pipe.err == "exit 0\n");
+    CHECK(shell("\"$0\" types >&-").exit_code == 1);
+
+    // With standard error closed, the log must not end up in the image.
+    REQUIRE(folder.run({"scene.xml", "-o", "a.exr"}).exit_code == 0);
+    CHECK(shell("\"$0\" scene.xml -o b.exr --verbose >&- 2>&- <&-").exit_code == 0);
+    CHECK(read_bytes(folder / "a.exr") == read_bytes(folder / "b.exr"));
+}

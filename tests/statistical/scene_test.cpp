@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+
+// What the scene answers: emitters in proportion to power, densities that agree, light that scales.
+
+#include "support/catch.h"
+#include "support/scene_text.h"
+#include "support/statistics.h"
+
+#include <map>
+
+#include <fmt/format.h>
+
+using namespace plumb;
+
+namespace {
+
+constexpr const char* lamps = R"(
+<scene dialect="plumb">
+    <integrator type="path_mis"/> <camera type="perspective"/>
+    <mesh type="sphere">
+        <point name="center" value="0,3,0"/> <float name="radius" value="0.5"/>
+        <emitter type="area"><color name="radiance" value="2,2,2"/></emitter>
+    </mesh>
+    <mesh type="rectangle">
+        <point name="center" value="3,2,0"/> <vector name="normal" value="-1,0,0"/>
+        <emitter type="area"><color name="radiance" value="3,1,0"/></emitter>
+    </mesh>
+    <mesh type="sphere"> <point name="center" value="0,-20,0"/> <float name="radius" value="19"/> </mesh>
+    <emitter type="pointlight"><point name="position" value="0,1,2"/><color name="radiance" value="0.5,0.5,0.5"/></emitter>
+    <emitter type="directional"><vector name="direction" value="0,1,0"/><color name="radiance" value="0.01,0,0"/></emitter>
+    <emitter type="environment"><color name="radiance" value="0.001,0.001,0.002"/></emitter>
+</scene>)";
+
+} // namespace
+
+TEST_CASE("emitters are chosen in proportion to their power", "[statistical][scene]")
+{
+    const LoadedScene loaded = test::load_text(lamps);
+    const Scene& scene = loaded.job.scene;
+    REQUIRE(scene.emitters().size() == 5);
+    double total = 0.0;
+    for (const Emitter* emitter : scene.emitters()) total += emitter->power();
+
+    const bool passed = test::check_statistic(
+        "choice of emitter",
+        [&](std::uint64_t samples, std::uint64_t seed) {
+            test::TestRandom random(seed);
+            std::map<const Emitter*, double> chosen;
+            for (std::uint64_t i = 0; i < samples; ++i) {
+                const double u_choice = random.next_double();
+                // From inside the floor's hemisphere every lamp can be seen, so that no sample is refused.
+                const auto light = scene.sample_emitter({0.f, 0.5f, 0.f}, u_choice, random.next_2d());
+                if (light) ++chosen[light->emitter];
+            }
+            double statistic = 0.0;
+            for (const Emitter* emitter : scene.emitters()) {
+                const double expected = static_cast<double>(samples) * emitter->power() / total;
+                statistic += sqr(chosen[emitter] - expected) / expected;
+            }
+            return test::Outcome{test::chi2_survival(statistic, 4), fmt::format("chi2 {}", statistic)};
+        },
+        50000, test::significance);
+    CHECK(passed);
+}
+
+TEST_CASE("what a ray sees has the density with which it would have been sampled", "[statistical][scene]")
+{
+    const LoadedScene loaded = test::load_text(lamps);
+    const Scene& scene = loaded.job.scene;
+    test::TestRandom random(4);
+    int compared = 0;
+    for (int i = 0; i < 4000; ++i) {
+        const Vec3f from(static_cast<float>(random.between(-1, 1)), static_cast<float>(random.between(0, 1)),
+                         static_cast<float>(random.between(-1, 1)));
+        const double u_choice = random.next_double();
+        const auto light = scene.sample_emitter(from, u_choice, random.next_2d());
+        if (!light || light->is_delta) continue;
+        const auto hit = scene.intersect({from, light->wi});
+        if (hit && hit->emitter != light->emitter) continue; // something is in between
+        const EmitterValue seen = scene.emission(from, light->wi, hit ? &*hit : nullptr);
+        CHECK(seen.pdf == Approx(light->pdf).epsilon(2e-3));
+        CHECK(seen.radiance.r == Approx(light->radiance.r).epsilon(2e-3));
+        ++compared;
+    }
+    CHECK(compared > 1000);
+}
+
+TEST_CASE("a scene of another scale gives the same picture", "[statistical][scene][scale]")
+{
+    // A floor, a glass and a matte ball, a sphere lamp and a point light, everything scaled alike; the point light's
+    // intensity by the square. The same seed draws the same paths, so means agree far within the noise of one picture.
+    const auto mean_at_scale = [](double s) {
+        const auto scaled = [s](double x) { return fmt::format("{:.9g}", x * s); };
+        const std::string xml = fmt::format(
+            R"(<scene dialect="plumb"><integrator type="path_mis"/>
+            <sampler type="independent"><integer name="sampleCount" value="64"/></sampler>
+            <camera type="perspective"><integer name="width" value="32"/><integer name="height" value="24"/>
+                <float name="fov" value="45"/><rfilter type="box"/>
+                <transform name="toWorld"><lookat origin="{0},{1},{2}" target="{0},{3},0" up="0,1,0"/></transform></camera>
+            <mesh type="rectangle"><vector name="normal" value="0,1,0"/><float name="width" value="{4}"/>
+                <float name="height" value="{4}"/><point name="center" value="{0},0,0"/></mesh>
+            <mesh type="sphere"><point name="center" value="{5},{6},0"/><float name="radius" value="{6}"/><bsdf type="dielectric"/></mesh>
+            <mesh type="sphere"><point name="center" value="{7},{6},0"/><float name="radius" value="{6}"/></mesh>
+            <mesh type="sphere"><point name="center" value="{0},{8},{6}"/><float name="radius" value="{9}"/>
+                <emitter type="area"><color name="radiance" value="20,20,20"/></emitter></mesh>
+            <emitter type="pointlight"><point name="position" value="{5},{8},{8}"/>
+                <color name="radiance" value="{10:.9g},{10:.9g},{10:.9g}"/></emitter></scene>)",
+            scaled(0.0), scaled(2.0), scaled(6.0), scaled(0.5), scaled(20.0), scaled(-1.1), scaled(0.8),
+            scaled(1.1), scaled(3.0), scaled(0.3), 4.0 * s * s);
+        const LoadedScene loaded = test::load_text(xml);
+        const RenderResult result = render(loaded.job, {});
+        CHECK(result.left_out.count == 0);
+        const Image image = result.film.develop();
+        test::MeanAndVariance mean;
+        for (int y = 0; y < 24; ++y)
+            for (int x = 0; x < 32; ++x) mean.add(luminance(image.color(x, y)));
+        return mean.mean();
+    };
+    const double reference = mean_at_scale(1.0);
+    for (const double scale : {1e-4, 1e-2, 1e3, 1e5}) {
+        INFO("scale " << scale);
+        CHECK(mean_at_scale(scale) == Approx(reference).epsilon(2e-3));
+    }
+}

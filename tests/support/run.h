@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Running the real program.
+
+#include "support/temp_folder.h"
+
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace plumb {
+
+struct RunResult {
+    int exit_code = -1; // 128 + signal if it died of one
+    std::string out;
+    std::string err;
+};
+
+// Runs words[0] in `folder` with standard input empty. out: where standard output goes, instead of into the result.
+inline RunResult run_program(const std::vector<std::string>& words, const std::filesystem::path& folder,
+                             const std::string& out = "")
+{
+    const TempFolder capture;
+    const std::string out_file = out.empty() ? (capture / "out").string() : out;
+    const std::string err_file = (capture / "err").string();
+
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_addopen(&actions, 1, out_file.c_str(), O_WRONLY | O_CREAT, 0600);
+    posix_spawn_file_actions_addopen(&actions, 2, err_file.c_str(), O_WRONLY | O_CREAT, 0600);
+    posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
+
+    std::vector<std::string> copies = words;
+    std::vector<char*> argv;
+    for (std::string& word : copies) argv.push_back(word.data());
+    argv.push_back(nullptr);
+    pid_t process = 0;
+    const int problem = posix_spawn(&process, argv[0], &actions, nullptr, argv.data(), environ);
+    posix_spawn_file_actions_destroy(&actions);
+    if (problem != 0) throw std::runtime_error("cannot run " + words.front() + ": " + std::strerror(problem));
+
+    int status = 0;
+    while (waitpid(process, &status, 0) < 0)
+        if (errno != EINTR) throw std::runtime_error("lost " + words.front());
+    RunResult result;
+    result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    if (out.empty()) result.out = read_bytes(out_file);
+    result.err = read_bytes(err_file);
+    return result;
+}
+
+inline RunResult run_renderer(std::vector<std::string> words, const std::filesystem::path& folder,
+                              const std::string& out = "")
+{
+    words.insert(words.begin(), PLUMB_RENDERER);
+    return run_program(words, folder, out);
+}
+
+} // namespace plumb

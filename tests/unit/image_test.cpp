@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: MIT
+
+#include "plumb/error.h"
+#include "plumb/image.h"
+#include "support/catch.h"
+#include "support/temp_folder.h"
+
+#include <chrono>
+#include <thread>
+
+using namespace plumb;
+
+namespace {
+
+// A picture whose values name their place, some of them outside [0, 1].
+Image numbered(PixelRect data, int full_width, int full_height)
+{
+    Image image(data, full_width, full_height);
+    for (int y = data.y; y < data.y + data.height; ++y)
+        for (int x = data.x; x < data.x + data.width; ++x)
+            for (int c = 0; c < 3; ++c)
+                image.pixel(x, y)[c] =
+                    static_cast<float>(100 * y + x) * 0.37f + static_cast<float>(c) * 1e-4f - 1.f;
+    return image;
+}
+
+void check_same_pixels(const Image& a, const Image& b, float tolerance)
+{
+    REQUIRE(a.data_window() == b.data_window());
+    float worst = 0.f;
+    const PixelRect& w = a.data_window();
+    for (int y = w.y; y < w.y + w.height; ++y)
+        for (int x = w.x; x < w.x + w.width; ++x)
+            for (int c = 0; c < 3; ++c)
+                worst = std::max(worst, std::abs(a.pixel(x, y)[c] - b.pixel(x, y)[c]));
+    CHECK(worst <= tolerance);
+}
+
+template <class T>
+const T* find(const Metadata& metadata, const std::string& name)
+{
+    for (const auto& [key, value] : metadata)
+        if (key == name) return std::get_if<T>(&value);
+    return nullptr;
+}
+
+Image grey_ramp(int width)
+{
+    Image image(width, 1);
+    for (int x = 0; x < width; ++x)
+        for (int c = 0; c < 3; ++c)
+            image.pixel(x, 0)[c] = static_cast<float>(x) / static_cast<float>(width - 1);
+    return image;
+}
+
+} // namespace
+
+TEST_CASE("EXR files keep every float, the windows and the metadata", "[unit][image]")
+{
+    const TempFolder folder;
+    Image image = numbered({7, 3, 20, 11}, 64, 48);
+    image.pixel(8, 4)[0] = 1e30f;
+    image.pixel(8, 4)[1] = 1e-40f;
+    const std::vector<float> matrix = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16.5f};
+    image.metadata = {{"Software", std::string("Plumb")},
+                      {"plumb:spp", 7},
+                      {"plumb:exposure", 0.5f},
+                      {"plumb:scene", std::string("cbox.xml")},
+                      {"worldToCamera", matrix}};
+    write_image(folder / "a.exr", image);
+    const Image back = read_image(folder / "a.exr", true);
+    check_same_pixels(image, back, 0.f);
+    CHECK(back.full_width() == 64);
+    CHECK(back.full_height() == 48);
+    CHECK(back.channel_names() == std::vector<std::string>{"R", "G", "B"});
+    REQUIRE(find<int>(back.metadata, "plumb:spp"));
+    CHECK(*find<int>(back.metadata, "plumb:spp") == 7);
+    REQUIRE(find<float>(back.metadata, "plumb:exposure"));
+    CHECK(*find<float>(back.metadata, "plumb:exposure") == 0.5f);
+    REQUIRE(find<std::string>(back.metadata, "plumb:scene"));
+    CHECK(*find<std::string>(back.metadata, "plumb:scene") == "cbox.xml");
+    REQUIRE(find<std::vector<float>>(back.metadata, "worldToCamera"));
+    CHECK(*find<std::vector<float>>(back.metadata, "worldToCamera") == matrix);
+    REQUIRE(find<std::string>(back.metadata, "compression"));
+    CHECK(*find<std::string>(back.metadata, "compression") == "zip");
+    CHECK(folder.files() == std::vector<std::string>{"a.exr"}); // nothing temporary is left
+}
+
+TEST_CASE("the same picture written twice gives the same bytes", "[unit][image]")
+{
+    const std::string extension =
+        GENERATE(as<std::string>{}, ".exr", ".png", ".jpg", ".jpeg", ".tif", ".tiff", ".hdr");
+    const TempFolder folder;
+    Image image = numbered({0, 0, 40, 30}, 40, 30);
+    image.metadata = {{"Software", std::string("Plumb")}, {"worldToCamera", std::vector<float>(16, 1.f)}};
+    write_image(folder / ("a" + extension), image);
+    const auto begin = std::chrono::system_clock::now(); // time stamps in files have whole seconds
+    while (std::chrono::time_point_cast<std::chrono::seconds>(std::chrono::system_clock::now()) ==
+           std::chrono::time_point_cast<std::chrono::seconds>(begin))
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    write_image(folder / ("b" + extension), image);
+    CHECK(read_bytes(folder / ("a" + extension)) == read_bytes(folder / ("b" + extension)));
+}
+
+TEST_CASE("TIFF files keep every float", "[unit][image]")
+{
+    const TempFolder folder;
+    const Image image = numbered({0, 0, 20, 11}, 20, 11);
+    write_image(folder / "a.tif", image);
+    check_same_pixels(image, read_image(folder / "a.tif", true), 0.f);
+}
+
+TEST_CASE("HDR files keep 8 bits of the largest channel", "[unit][image]")
+{
+    const TempFolder folder;
+    Image image = grey_ramp(200);
+    image.pixel(3, 0)[1] = 1000.f;
+    write_image(folder / "a.hdr", image);
+    const Image back = read_image(folder / "a.hdr", true);
+    for (int x = 0; x < 200; ++x)
+        for (int c = 0; c < 3; ++c) {
+            const float largest =
+                std::max({image.pixel(x, 0)[0], image.pixel(x, 0)[1], image.pixel(x, 0)[2]});
+            CHECK(std::abs(back.pixel(x, 0)[c] - image.pixel(x, 0)[c]) <= largest / 128.f);
+        }
+}
+
+TEST_CASE("PNG files hold the nearest 8-bit sRGB value, clamped", "[unit][image]")
+{
+    const TempFolder folder;
+    // The curve, solved for the linear value at the border of two 8-bit values, in double precision.
+    const auto linear = [](double srgb) {
+        return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4);
+    };
+    Image image(256, 2);
+    for (int i = 0; i < 256; ++i) {
+        const float above = static_cast<float>(linear((i - 0.49) / 255.0));
+        const float below = static_cast<float>(linear((i + 0.49) / 255.0));
+        for (int c = 0; c < 3; ++c) {
+            image.pixel(i, 0)[c] = above;
+            image.pixel(i, 1)[c] = below;
+        }
+    }
+    image.pixel(0, 0)[0] = -5.f;
+    image.pixel(0, 0)[1] = std::numeric_limits<float>::quiet_NaN();
+    image.pixel(255, 1)[0] = infinity;
+    const int stops = GENERATE(0, 3, -2);
+    Image scaled(256, 2);
+    for (int y = 0; y < 2; ++y)
+        for (int x = 0; x < 256; ++x)
+            for (int c = 0; c < 3; ++c) scaled.pixel(x, y)[c] = std::ldexp(image.pixel(x, y)[c], -stops);
+    write_image(folder / "a.png", scaled, static_cast<float>(stops));
+
+    const Image raw = read_image(folder / "a.png", false);
+    const Image decoded = read_image(folder / "a.png", true);
+    for (int y = 0; y < 2; ++y)
+        for (int x = 0; x < 256; ++x)
+            for (int c = 0; c < 3; ++c) {
+                CAPTURE(x, y, c, stops);
+                REQUIRE(raw.pixel(x, y)[c] == static_cast<float>(x) / 255.f);
+                REQUIRE(decoded.pixel(x, y)[c] == Approx(linear(x / 255.0)).epsilon(1e-6));
+            }
+}
+
+TEST_CASE("JPEG files are near what was written", "[unit][image]")
+{
+    const TempFolder folder;
+    const Image image = grey_ramp(64);
+    const std::string name = GENERATE(as<std::string>{}, "a.jpg", "a.JPEG");
+    write_image(folder / name, image);
+    check_same_pixels(image, read_image(folder / name, true), 0.02f);
+}
+
+TEST_CASE("formats without windows hold the pixels that exist", "[unit][image]")
+{
+    const TempFolder folder;
+    const std::string name = GENERATE(as<std::string>{}, "a.png", "a.tif", "a.hdr", "a.jpg");
+    write_image(folder / name, numbered({7, 3, 20, 11}, 64, 48));
+    const Image back = read_image(folder / name, false);
+    CHECK(back.data_window() == PixelRect{0, 0, 20, 11});
+    CHECK(back.full_width() == 20);
+    CHECK(back.full_height() == 11);
+}
+
+TEST_CASE("grey pictures have one channel, and alpha does not touch the colours", "[unit][image]")
+{
+    const TempFolder folder;
+    Image grey({0, 0, 3, 1}, 3, 1, {"Y"});
+    *grey.pixel(1, 0) = 0.25f;
+    write_image(folder / "grey.exr", grey);
+    const Image back = read_image(folder / "grey.exr", false);
+    CHECK(back.channel_count() == 1);
+    CHECK(back.color(1, 0) == Color(0.25f));
+
+    Image clear({0, 0, 2, 1}, 2, 1, {"R", "G", "B", "A"});
+    for (int c = 0; c < 3; ++c) clear.pixel(1, 0)[c] = 1.f;
+    const std::string name = GENERATE(as<std::string>{}, "clear.png", "clear.exr");
+    write_image(folder / name, clear); // alpha is 0 everywhere
+    const Image read = read_image(folder / name, true);
+    REQUIRE(read.channel_count() == 4);
+    CHECK(read.pixel(1, 0)[3] == 0.f);
+    CHECK(read.color(1, 0) == Color(1.f));
+}
+
+TEST_CASE("pictures with many channels are read whole", "[unit][image]")
+{
+    const TempFolder folder;
+    Image image({0, 0, 2, 2}, 2, 2, {"R", "G", "B", "A", "Z", "depth.x"});
+    for (int c = 0; c < 6; ++c) image.pixel(1, 1)[c] = static_cast<float>(c);
+    write_image(folder / "many.exr", image);
+    const Image back = read_image(folder / "many.exr", true);
+    CHECK(back.channel_count() == 6);
+    CHECK(back.color(1, 1) == Color(0.f, 1.f, 2.f));
+}
+
+TEST_CASE("a path that cannot be written is found out", "[unit][image]")
+{
+    const TempFolder folder;
+    const auto check = [&](const std::string& name, const std::string& reason) {
+        CHECK_THROWS_WITH(check_image_path(folder / name),
+                          ContainsSubstring(name) && ContainsSubstring(reason));
+        CHECK_THROWS_WITH(write_image(folder / name, Image(2, 2)), ContainsSubstring(reason));
+    };
+    check("a.bmp", "unknown extension '.bmp'; known are .exr, .hdr, .tif, .tiff, .png, .jpg, .jpeg");
+    check("a", "the name has no extension; known are .exr");
+    check("none/a.exr", "the folder '" + (folder / "none").string() + "' does not exist");
+    std::filesystem::create_directory(folder / "b.exr");
+    check("b.exr", "a folder of that name exists");
+    folder.write("file", "");
+    check("file/a.exr", "is no folder");
+    check("", "no file name");
+    CHECK(folder.files() == std::vector<std::string>{"b.exr", "file"});
+    CHECK_NOTHROW(check_image_path(folder / "good.EXR"));
+    CHECK(folder.files() == std::vector<std::string>{"b.exr", "file"}); // checking leaves nothing behind
+}
+
+TEST_CASE("writing that fails keeps the file that was there", "[unit][image]")
+{
+    const TempFolder folder;
+    folder.write("a.jpg", "precious");
+    // More channels than JPEG can hold.
+    const Image image({0, 0, 2, 2}, 2, 2, {"A1", "A2", "A3", "A4", "A5", "A6", "A7"});
+    try {
+        write_image(folder / "a.jpg", image);
+    } catch (const Error& error) {
+        CHECK_THAT(error.what(), ContainsSubstring("cannot write '" + (folder / "a.jpg").string() + "': "));
+        CHECK(std::string(error.what()).find('\n') == std::string::npos);
+        CHECK(read_bytes(folder / "a.jpg") == "precious");
+    }
+    CHECK(folder.files() == std::vector<std::string>{"a.jpg"});
+}
+
+TEST_CASE("broken pictures are errors on one line that name the file", "[unit][image]")
+{
+    const TempFolder folder;
+    const auto check = [&](const std::string& name) {
+        try {
+            read_image(folder / name, true);
+            FAIL("read " << name);
+        } catch (const Error& error) {
+            const std::string text = error.what();
+            CHECK(text.starts_with("cannot read '" + (folder / name).string() + "': "));
+            CHECK(text.size() > ("cannot read '" + (folder / name).string() + "': ").size());
+            CHECK(text.find('\n') == std::string::npos);
+            CHECK(text.back() != '.');
+        }
+    };
+    check("missing.png");
+    std::filesystem::create_directory(folder / "folder.png");
+    check("folder.png");
+    for (const std::string extension : {".png", ".exr", ".hdr", ".tif", ".jpg"}) {
+        folder.write("empty" + extension, "");
+        check("empty" + extension);
+        folder.write("text" + extension, "this is no picture");
+        check("text" + extension);
+    }
+    for (const std::string extension : {".png", ".exr", ".tif"}) {
+        write_image(folder / ("whole" + extension), numbered({0, 0, 64, 64}, 64, 64));
+        const std::string bytes = read_bytes(folder / ("whole" + extension));
+        folder.write("half" + extension, bytes.substr(0, bytes.size() / 2));
+        check("half" + extension);
+    }
+}
+
+TEST_CASE("pictures that cannot be are errors", "[unit][image]")
+{
+    CHECK_THROWS_WITH(Image(0, 5), ContainsSubstring("0 x 5 pixels"));
+    CHECK_THROWS_WITH(Image(5, -1), ContainsSubstring("5 x -1 pixels"));
+    CHECK_THROWS_WITH(Image(2000000000, 2000000000), ContainsSubstring("2000000000 x 2000000000 pixels"));
+    CHECK_THROWS_WITH(Image({0, 0, 5, 5}, 5, 5, {}), ContainsSubstring("0 channels"));
+}
+
+TEST_CASE("images can be moved", "[unit][image]")
+{
+    Image a = numbered({1, 2, 3, 4}, 10, 10);
+    const float value = a.pixel(2, 3)[1];
+    Image b(std::move(a));
+    CHECK(b.pixel(2, 3)[1] == value);
+    Image c(1, 1);
+    c = std::move(b);
+    CHECK(c.pixel(2, 3)[1] == value);
+    CHECK(c.data_window() == PixelRect{1, 2, 3, 4});
+}

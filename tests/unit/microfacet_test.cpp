@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+
+#include "plumb/microfacet.h"
+
+#include "support/catch.h"
+#include "support/statistics.h"
+
+#include <cmath>
+
+using namespace plumb;
+using namespace plumb::test;
+
+namespace {
+
+Vec3f direction(double theta, double phi = 0.3)
+{
+    return Vec3f(Vec3d(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)));
+}
+
+// Cells whose size follows that of the lobe.
+SphereGrid grid_for(double alpha)
+{
+    return {Vec3f(0, 0, 1), std::max(1.0, 2.0 * std::log2(1.0 / alpha)), 20, 4};
+}
+
+} // namespace
+
+TEST_CASE("Beckmann microfacets cover the surface: D cos integrates to 1", "[unit][microfacet]")
+{
+    for (const float alpha : {1e-4f, 1e-3f, 0.01f, 0.1f, 0.5f, 1.f}) {
+        CAPTURE(alpha);
+        const Beckmann beckmann(alpha);
+        const auto covered = [&](const Vec3f& wh) {
+            return static_cast<double>(beckmann.d(wh) * std::max(0.f, wh.z));
+        };
+        CHECK(integrate_sphere(grid_for(alpha), covered) == Approx(1.0).epsilon(1e-4));
+        const auto density = [&](const Vec3f& wh) { return static_cast<double>(beckmann.pdf(wh)); };
+        CHECK(integrate_sphere(grid_for(alpha), density) == Approx(1.0).epsilon(1e-4));
+    }
+}
+
+TEST_CASE("Beckmann's D agrees with its formula and is finite everywhere", "[unit][microfacet]")
+{
+    for (const float alpha : {0.05f, 0.3f, 1.f}) {
+        for (double theta = 0.0; theta < 1.5; theta += 0.05) {
+            const double a = alpha, c = std::cos(theta), t = std::tan(theta) / a;
+            const double expected = std::exp(-t * t) / (pi_d * a * a * c * c * c * c);
+            CAPTURE(alpha, theta);
+            CHECK(Beckmann(alpha).d(direction(theta)) == Approx(expected).epsilon(3e-5).margin(1e-30));
+        }
+    }
+    for (const float alpha : {1e-4f, 0.1f, 1.f}) {
+        for (const float z : {1.f, 0.5f, 1e-3f, 1e-6f, 1e-12f, 1e-20f, 1e-38f}) {
+            const float d = Beckmann(alpha).d(Vec3f(std::sqrt(1.f - z * z), 0.f, z));
+            CHECK(std::isfinite(d));
+            CHECK(d >= 0.f);
+        }
+        CHECK(Beckmann(alpha).d(Vec3f(1.f, 0.f, 0.f)) == 0.f);
+        CHECK(Beckmann(alpha).d(Vec3f(0.f, 0.f, -1.f)) == 0.f);
+        CHECK(Beckmann(alpha).d(Vec3f(0.f, 0.f, 1.f)) ==
+              Approx(1.0 / (pi_d * double(alpha) * double(alpha))));
+    }
+}
+
+TEST_CASE("the rational fit of Beckmann's shadowing is close to the exact Smith function",
+          "[unit][microfacet]")
+{
+    // Walter et al. 2007, section 5.2: G1 = 2 / (1 + erf(a) + exp(-a^2) / (a sqrt(pi))); the fit's relative error
+    // is below 0.35 %.
+    const Vec3f normal(0.f, 0.f, 1.f);
+    for (const float alpha : {0.1f, 0.5f, 1.f}) {
+        for (double theta = 0.01; theta < 1.57; theta += 0.01) {
+            const double a = 1.0 / (alpha * std::tan(theta));
+            const double exact = 2.0 / (1.0 + std::erf(a) + std::exp(-a * a) / (a * std::sqrt(pi_d)));
+            CAPTURE(alpha, theta);
+            CHECK(Beckmann(alpha).g1(direction(theta), normal) == Approx(exact).epsilon(0.0036));
+            CHECK(Beckmann(alpha).g1(-direction(theta), normal) == Approx(exact).epsilon(0.0036));
+        }
+    }
+}
+
+TEST_CASE("shadowing is 0 where a direction does not see the microfacet, and G is the product",
+          "[unit][microfacet]")
+{
+    const Beckmann beckmann(0.5f);
+    const Vec3f tilted = direction(1.0, 0.0);
+    CHECK(beckmann.g1(direction(1.2, pi_d), tilted) == 0.f); // above the surface, behind the microfacet
+    CHECK(beckmann.g1(direction(2.0, 0.0), tilted) == 0.f);  // below the surface, before the microfacet
+    CHECK(beckmann.g1(Vec3f(1.f, 0.f, 0.f), tilted) == 0.f); // in the surface
+    CHECK(beckmann.g1(Vec3f(0.f, 0.f, 1.f), tilted) == 1.f); // along the normal
+
+    const Vec3f wi = direction(1.3, 0.1), wo = direction(1.4, 0.7);
+    CHECK(beckmann.g(wi, wo, tilted) == beckmann.g1(wi, tilted) * beckmann.g1(wo, tilted));
+    CHECK(beckmann.g(wi, wo, tilted) < 1.f);
+}
+
+TEST_CASE("Beckmann sampling follows its density", "[statistical][microfacet]")
+{
+    const float alphas[] = {1e-4f, 0.01f, 0.1f, 0.4f, 1.f};
+    for (const float alpha : alphas) {
+        const Beckmann beckmann(alpha);
+        auto grid = grid_for(alpha);
+        grid.phi_cells = 16;
+        check_distribution(
+            "Beckmann, alpha = " + std::to_string(alpha), grid,
+            [&](TestRandom& random) { return beckmann.sample(random.next_2d()); },
+            [&](const Vec3f& wh) { return beckmann.pdf(wh); }, 100'000,
+            sidak_level(significance, std::size(alphas)));
+    }
+}
+
+TEST_CASE("Beckmann samples of the corners of the square are finite unit vectors", "[unit][microfacet]")
+{
+    for (const float alpha : {1e-4f, 1.f})
+        for (const float x : {0.f, one_minus_epsilon})
+            for (const float y : {0.f, one_minus_epsilon}) {
+                const Vec3f wh = Beckmann(alpha).sample({x, y});
+                CHECK(length(wh) == Approx(1.0).epsilon(1e-6));
+                CHECK(wh.z > 0.f);
+                CHECK(Beckmann(alpha).pdf(wh) > 0.f);
+            }
+}

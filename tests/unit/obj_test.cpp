@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: MIT
+
+#include "io/obj_number.h"
+#include "io/obj_polygon.h"
+#include "plumb/error.h"
+#include "plumb/mesh.h"
+#include "support/catch.h"
+#include "support/temp_folder.h"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+
+using namespace plumb;
+
+namespace {
+
+MeshData read_text(const std::string& text)
+{
+    const TempFolder folder;
+    const auto path = folder.write("mesh.obj", text);
+    return read_obj(path);
+}
+
+// "line:column: message" of the error that reading gives, and the marked text in front.
+std::string error_of(const std::string& text)
+{
+    try {
+        read_text(text);
+    } catch (const FileError& error) {
+        const SourceLocation& at = error.location();
+        const auto column = static_cast<std::size_t>(at.column - 1);
+        return fmt::format("{}:{} [{}] {}", at.line, at.column,
+                           at.line_text.substr(column, static_cast<std::size_t>(at.length)), error.what());
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+Vec3d triangle_normal(const MeshData& mesh, const MeshData::Triangle& t)
+{
+    const Vec3d a(mesh.positions[t[0]]);
+    return cross(Vec3d(mesh.positions[t[1]]) - a, Vec3d(mesh.positions[t[2]]) - a);
+}
+
+// The areas of the triangles added up, and their vectors added up: equal in length if none is folded back.
+double total_area(const MeshData& mesh)
+{
+    double sum = 0.0;
+    for (const auto& t : mesh.triangles) sum += 0.5 * length(triangle_normal(mesh, t));
+    return sum;
+}
+
+Vec3d area_vector(const MeshData& mesh)
+{
+    Vec3d sum(0.0);
+    for (const auto& t : mesh.triangles) sum += triangle_normal(mesh, t) * 0.5;
+    return sum;
+}
+
+std::string polygon_obj(const std::vector<Vec3f>& corners)
+{
+    std::string text;
+    std::string face = "f";
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        text += fmt::format("v {} {} {}\n", corners[i].x, corners[i].y, corners[i].z);
+        face += fmt::format(" {}", i + 1);
+    }
+    return text + face + "\n";
+}
+
+const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+
+} // namespace
+
+TEST_CASE("OBJ files with triangles, quads and every kind of index", "[unit][obj]")
+{
+    const std::string face =
+        GENERATE(as<std::string>{}, "f 1 2 3\nf 1 3 4\n", "f 1 2 3 4\n", "f -4 -3 -2 -1\n", "f +1 -3 3 -1",
+                 "  f\t1  2\t3 4 \t", "f 1 2 3 4 # a comment\n", "f 1 2 3 # one\n# two\n\nf 1 3 4 #\n");
+    const MeshData mesh =
+        read_text("# header\no thing\ng a b\nusemtl x\ns off\nmtllib none.mtl\n" + square + face);
+    CHECK(mesh.positions == std::vector<Vec3f>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
+    CHECK(mesh.triangles == std::vector<MeshData::Triangle>{{0, 1, 2}, {0, 2, 3}});
+    CHECK(mesh.normals.empty());
+    CHECK(mesh.uvs.empty());
+    CHECK(mesh.warning.empty());
+}
+
+TEST_CASE("OBJ files with other line ends, with a byte order mark and without a last line end", "[unit][obj]")
+{
+    const std::string end = GENERATE(as<std::string>{}, "\n", "\r\n", "\r");
+    const bool last = GENERATE(true, false);
+    const MeshData mesh = read_text("\xef\xbb\xbfv 0 0 0" + end + "v 1 0 0" + end + end + "v 0 1 .5" + end +
+                                    "vn 0 0 2" + end + "f -3//-1 -2//-1 -1//-1" + end + "v 5 5 5" + end +
+                                    "f -4//1 -2//1 -1//1" + (last ? end : ""));
+    CHECK(mesh.positions == std::vector<Vec3f>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0.5f}, {5, 5, 5}});
+    CHECK(mesh.triangles == std::vector<MeshData::Triangle>{{0, 1, 2}, {0, 2, 3}});
+    CHECK(mesh.normals == std::vector<Vec3f>(4, Vec3f(0, 0, 1)));
+}
+
+TEST_CASE("vertices of an OBJ file are shared where the triple of indices is equal", "[unit][obj]")
+{
+    const MeshData mesh =
+        read_text(square + "vt 0 0\nvt 1\nvt 1 1 0\nvt 0.5 0.25\nvn 0 0 1\nvn 0 3 4\n"
+                           "f 1/1/1 2/2/1 3/3/1\nf 1/1/1 3/3/1 4/4/2\nf 1/1/2 3/3/1 4/4/2\n");
+    CHECK(mesh.triangles == std::vector<MeshData::Triangle>{{0, 1, 2}, {0, 2, 3}, {4, 2, 3}});
+    REQUIRE(mesh.positions.size() == 5);
+    CHECK(mesh.positions[4] == mesh.positions[0]);
+    CHECK(mesh.uvs == std::vector<Vec2f>{{0, 0}, {1, 0}, {1, 1}, {0.5f, 0.25f}, {0, 0}});
+    CHECK(mesh.normals[0] == Vec3f(0, 0, 1));
+    CHECK(length(mesh.normals[4] - Vec3f(0.f, 0.6f, 0.8f)) < 1e-7f);
+    CHECK(mesh.warning.empty());
+}
+
+TEST_CASE("vertices that no triangle of an OBJ file uses are dropped", "[unit][obj]")
+{
+    const MeshData plain = read_text("v 9e17 0 0\n" + square + "v 7 7 7\nf 2 3 4\n");
+    CHECK(plain.positions == std::vector<Vec3f>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}});
+    CHECK(plain.triangles == std::vector<MeshData::Triangle>{{0, 1, 2}});
+    const MeshData with_normals = read_text("v 9 9 9\n" + square + "vn 0 0 1\nf 2//1 3//1 4//1\n");
+    CHECK(with_normals.positions.size() == 3);
+}
+
+TEST_CASE("numbers of an OBJ file become the nearest float", "[unit][obj]")
+{
+    const std::string text = GENERATE(
+        as<std::string>{}, "0.1", "+.5", "-3.", "1e-3", "-2.5E+10", "3.4028234e10", "0.123456789012345678",
+        "16777217", "1.00000017881393432617187499", "1e-46", "-1e-400", "9.9999e17", "0.000000000000000001");
+    const MeshData mesh = read_text("v " + text + " 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\n");
+    const float expected =
+        std::strtof(text.c_str(), nullptr); // rounds correctly; reads "+.5" and "1e-400" too
+    CHECK(mesh.positions[0].x == expected);
+}
+
+TEST_CASE("polygons of an OBJ file that are not convex are cut right", "[unit][obj]")
+{
+    // Each planar and simple, with its area. The same in three planes, from both sides, from every first corner.
+    struct Shape {
+        std::vector<Vec2f> corners;
+        double area;
+    };
+    const auto shape =
+        GENERATE(Shape{{{0, 0}, {4, 0}, {4, 3}, {1, 3}, {1, 1}, {0, 1}}, 10.0},                 // an L
+                 Shape{{{0, 0}, {5, 0}, {5, 5}, {0, 5}, {0, 4}, {4, 4}, {4, 1}, {0, 1}}, 13.0}, // a U
+                 Shape{{{0, 0}, {2, 1}, {4, 0}, {3, 2}, {4, 4}, {2, 3}, {0, 4}, {1, 2}}, 8.0},  // a star
+                 Shape{{{0, 0}, {1, 0}, {2, 0}, {2, 2}, {1, 1}, {0, 2}}, 3.0}, // collinear corners
+                 Shape{{{0, 0}, {3, 0}, {3, 3}, {0, 3}, {0, 0}, {1, 1}, {1, 2}, {2, 2}, {2, 1}, {1, 1}},
+                       8.0},                                                    // a hole
+                 Shape{{{0, 0}, {2, 0}, {3, 1}, {2, 2}, {0, 2}, {-1, 1}}, 6.0}, // convex
+                 Shape{{{0, 0}, {4, 0}, {1, 1}, {0, 4}}, 4.0});                 // a concave quad
+    const int plane = GENERATE(0, 1, 2, 3);
+    const bool reversed = GENERATE(false, true);
+    for (std::size_t first = 0; first < shape.corners.size(); ++first) {
+        std::vector<Vec3f> corners;
+        for (std::size_t i = 0; i < shape.corners.size(); ++i) {
+            const Vec2f p = shape.corners[(first + i) % shape.corners.size()];
+            corners.push_back(plane == 0   ? Vec3f(p.x, p.y, 7.f)
+                              : plane == 1 ? Vec3f(7.f, p.x, p.y)
+                              : plane == 2 ? Vec3f(p.y, 7.f, p.x)
+                                           : Vec3f(p.x, p.y, p.x + 2.f * p.y));
+        }
+        if (reversed) std::reverse(corners.begin(), corners.end());
+        const MeshData mesh = read_text(polygon_obj(corners));
+        const double slope = plane == 3 ? std::sqrt(6.0) : 1.0; // of the plane z = x + 2 y
+        CAPTURE(plane, reversed, first);
+        CHECK(total_area(mesh) == Approx(shape.area * slope));
+        CHECK(length(area_vector(mesh)) == Approx(shape.area * slope)); // nothing folded back, nothing twice
+        CHECK(dot(area_vector(mesh), newell_normal(corners)) > 0.0);
+    }
+}
+
+TEST_CASE("a large polygon of an OBJ file that is not convex is cut right and quickly", "[unit][obj]")
+{
+    std::vector<Vec3f> corners; // a gear
+    constexpr int count = 4000;
+    for (int i = 0; i < count; ++i) {
+        const double angle = 2.0 * pi_d * i / count;
+        const double radius = i % 2 == 0 ? 1.0 : 1.1;
+        corners.emplace_back(static_cast<float>(radius * std::cos(angle)),
+                             static_cast<float>(radius * std::sin(angle)), 0.f);
+    }
+    const MeshData mesh = read_text(polygon_obj(corners));
+    CHECK(mesh.triangles.size() == count - 2);
+    CHECK(total_area(mesh) == Approx(0.5 * length(newell_normal(corners))).epsilon(1e-5));
+    CHECK(length(area_vector(mesh)) == Approx(total_area(mesh)).epsilon(1e-6));
+}
+
+TEST_CASE("triangles without area are left out of an OBJ file with a warning", "[unit][obj]")
+{
+    const MeshData one = read_text(square + "f 1 2 3\nf 1 1 2\n");
+    CHECK(one.triangles.size() == 1);
+    CHECK(one.warning == "1 triangle has no area and was left out");
+    const MeshData two = read_text(square + "v 2 0 0\nf 1 2 3\nf 1 2 5\nf 3 3 3 3\n");
+    CHECK(two.triangles.size() == 1);
+    CHECK(two.warning == "3 triangles have no area and were left out");
+    CHECK_THAT(error_of(square + "f 1 1 2\n"), ContainsSubstring("no face has an area"));
+    // a sliver has an area
+    CHECK(read_text("v 0 0 0\nv 1e-15 0 0\nv 0 1e-15 0\nf 1 2 3\n").triangles.size() == 1);
+}
+
+TEST_CASE("corners of an OBJ file without a normal get their face's", "[unit][obj]")
+{
+    const std::string faces = GENERATE(as<std::string>{}, "f 1//1 2//1 3//1\nf 4 2 3\n", // none
+                                       "f 1//1 2//1 3//1\nf 4//2 2//2 3//2\n");          // of length zero
+    const MeshData mesh = read_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 1\nvn 0 0 -3\nvn 0 0 0\n" + faces);
+    REQUIRE(mesh.triangles.size() == 2);
+    REQUIRE(mesh.normals.size() == mesh.positions.size());
+    for (const std::uint32_t vertex : mesh.triangles[0]) CHECK(mesh.normals[vertex] == Vec3f(0, 0, -1));
+    const Vec3d expected = normalize(triangle_normal(mesh, mesh.triangles[1]));
+    for (const std::uint32_t vertex : mesh.triangles[1])
+        CHECK(length(Vec3d(mesh.normals[vertex]) - expected) < 1e-6);
+    CHECK(mesh.warning ==
+          "1 of 2 faces have corners without a normal, or with one of length zero, where the face's "
+          "own normal is used");
+}
+
+TEST_CASE("texture coordinates of an OBJ file are all used or all left out", "[unit][obj]")
+{
+    const MeshData mesh = read_text(square + "vt 0 0\nf 1/1 2/1 3/1\nf 1 3 4\n");
+    CHECK(mesh.uvs.empty());
+    CHECK(mesh.positions.size() == 4);
+    CHECK(mesh.warning == "texture coordinates are left out, because some face corners have none");
+}
+
+TEST_CASE("every mistake in an OBJ file is an error with its place", "[unit][obj]")
+{
+    const std::string good = square + "vt 0 0\nvn 0 0 1\n";
+    const auto [text, expected] = GENERATE_COPY(table<std::string, std::string>({
+        {"v 0 abc 0\n" + good, "1:5 [abc] 'abc' is not a number; a vertex is written v x y z"},
+        {"v 0 0 nan\n" + good, "1:7 [nan] numbers must be finite, not 'nan'"},
+        {"v 0 -inf 0\n" + good, "1:5 [-inf] numbers must be finite, not '-inf'"},
+        {"v 0 1e39 0\n" + good, "1:5 [1e39] numbers must lie between -1e18 and 1e18, not '1e39'"},
+        {"v 0 -1e400 0\n" + good, "1:5 [-1e400] numbers must lie between -1e18 and 1e18, not '-1e400'"},
+        {"v 0 2e18 0\n" + good, "1:5 [2e18] numbers must lie between -1e18 and 1e18, not '2e18'"},
+        {"v 0 1.5.2 0\n" + good, "1:5 [1.5.2] '1.5.2' is not a number; a vertex is written v x y z"},
+        {"v 0 0x10 0\n" + good, "1:5 [0x10] '0x10' is not a number; a vertex is written v x y z"},
+        {"v 0 1,5 0\n" + good, "1:5 [1,5] '1,5' is not a number; a vertex is written v x y z"},
+        {"v 0 +-1 0\n" + good, "1:5 [+-1] '+-1' is not a number; a vertex is written v x y z"},
+        {"v 0 0\n" + good, "1:1 [v] a vertex needs 3 numbers, not 2: v x y z"},
+        {"v\n" + good, "1:1 [v] a vertex needs 3 numbers, not 0: v x y z"},
+        {"v 0 0 \\\n0\n" + good,
+         "1:7 [\\] lines continued with '\\' are not supported; write the line as one"},
+        {"vn 1 0\n" + good, "1:1 [vn] a normal needs 3 numbers, not 2: vn x y z"},
+        {"vt\n" + good, "1:1 [vt] a texture coordinate needs 1 number, not 0: vt u v"},
+        {"vt 0 x\n" + good, "1:6 [x] 'x' is not a number; a texture coordinate is written vt u v"},
+        {good + "f 0 1 2\n", "7:3 [0] indices count from 1 (or backwards from -1), not from 0"},
+        {good + "f 1 2 5\n", "7:7 [5] vertex index 5 is out of range: the file has 4 vertices"},
+        {good + "f 1 2 99999999999\n",
+         "7:7 [99999999999] vertex index 99999999999 is out of range: the file has 4 "
+         "vertices"},
+        {good + "f 1 2 -5\n", "7:7 [-5] vertex index -5 reaches back beyond the first: 4 vertices so far"},
+        {good + "f 1/1 2/2 3/1\n",
+         "7:9 [2] texture coordinate index 2 is out of range: the file has 1 texture "
+         "coordinate"},
+        {good + "f 1//1 2//1 3//7\n", "7:16 [7] normal index 7 is out of range: the file has 1 normal"},
+        {square + "f 1//1 2//1 3//1\n", "5:6 [1] normal index 1 is out of range: the file has no normals"},
+        {good + "f 1/1/1 2/1/-2 3\n",
+         "7:13 [-2] normal index -2 reaches back beyond the first: 1 normal so far"},
+        {good + "f 1 2\n", "7:1 [f 1 2] a face needs at least 3 corners, not 2"},
+        {good + "f\n", "7:1 [f] a face needs at least 3 corners, not 0"},
+        {good + "f 1 2 3x\n", "7:7 [3x] '3x' is not a face corner; those are written p, p/t, p//n or p/t/n"},
+        {good + "f 1/ 2/ 3/\n",
+         "7:3 [1/] '1/' is not a face corner; those are written p, p/t, p//n or p/t/n"},
+        {good + "f 1/1/1/1 2 3\n",
+         "7:3 [1/1/1/1] '1/1/1/1' is not a face corner; those are written p, p/t, p//n or "
+         "p/t/n"},
+        {good + "f 1 2 3#\n", "7:7 [3#] '3#' is not a face corner; those are written p, p/t, p//n or p/t/n"},
+        {good + "f 1 2 1.5\n",
+         "7:7 [1.5] '1.5' is not a face corner; those are written p, p/t, p//n or p/t/n"},
+        {good + "f 1 2 \\\n3\n",
+         "7:7 [\\] lines continued with '\\' are not supported; write the line as one"},
+        {good + "f 1 2 3\n\n f 1 a 3\n",
+         "9:6 [a] 'a' is not a face corner; those are written p, p/t, p//n or p/t/n"},
+    }));
+    CHECK(error_of(text) == expected);
+}
+
+TEST_CASE("OBJ files that cannot be read are errors that name the file", "[unit][obj]")
+{
+    const TempFolder folder;
+    CHECK_THROWS_WITH(read_obj(folder.path() / "none.obj"), ContainsSubstring("none.obj': No such file"));
+    CHECK_THROWS_WITH(read_obj(folder.path()), ContainsSubstring("it is a folder"));
+    CHECK_THAT(error_of(""), ContainsSubstring("the file is empty"));
+    CHECK_THAT(error_of("\n"), ContainsSubstring("no faces"));
+    CHECK_THAT(error_of(square), ContainsSubstring("no faces"));
+    CHECK_THAT(error_of(std::string("\x7f"
+                                    "ELF\0\0\1\2\3\n\0\0",
+                                    12)),
+               ContainsSubstring("not a text file"));
+    // a tab or a control character from the file does not reach the terminal
+    CHECK_THAT(error_of("v 0 \x1b[31m 0\n"), ContainsSubstring("'?[31m' is not a number"));
+    CHECK_THAT(error_of("v 0 " + std::string(1000, 'x') + " 0\n"),
+               ContainsSubstring("xxx...' is not a number"));
+}
+
+TEST_CASE("a large OBJ file is read in parallel, with faces among the vertices", "[unit][obj]")
+{
+    // Strips of a helix, each of which names the vertices just before it; enough for several batches.
+    constexpr int strips = 20000;
+    std::string text;
+    for (int i = 0; i < strips; ++i)
+        text += fmt::format("v {} 0 0\nv {} 1 0\nv {} 0 1\nf -3 -2 -1\nf {} {} {}\n", i, i, i, 3 * i + 1,
+                            3 * i + 3, 3 * i + 2);
+    const MeshData mesh = read_text(text);
+    REQUIRE(mesh.triangles.size() == 2 * strips);
+    bool right = true;
+    for (std::uint32_t i = 0; i < strips; ++i) {
+        right = right && mesh.triangles[2 * i] == MeshData::Triangle{3 * i, 3 * i + 1, 3 * i + 2};
+        right = right && mesh.triangles[2 * i + 1] == MeshData::Triangle{3 * i, 3 * i + 2, 3 * i + 1};
+    }
+    CHECK(right);
+    // An error at its end still has its place.
+    CHECK_THAT(error_of(text + "f 1 2 60001\n"), ContainsSubstring("100001:7 [60001]"));
+    CHECK_THAT(error_of(text + "f 1 2 x\n"), ContainsSubstring("100001:7 [x]"));
+}

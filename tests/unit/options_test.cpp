@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: MIT
+#include "cli/option_rows.h"
+#include "cli/options.h"
+#include "support/catch.h"
+
+#include <cctype>
+#include <sstream>
+
+using namespace plumb;
+
+namespace {
+
+// Words separated by spaces; none of these holds one.
+Options parse(const std::string& line)
+{
+    std::istringstream stream(line);
+    std::vector<std::string> words;
+    for (std::string word; stream >> word;) words.push_back(word);
+    return parse_options(words);
+}
+
+std::string usage_error(const std::vector<std::string>& words)
+{
+    try {
+        parse_options(words);
+    } catch (const UsageError& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+std::string usage_error(const std::string& line)
+{
+    std::istringstream stream(line);
+    std::vector<std::string> words;
+    for (std::string word; stream >> word;) words.push_back(word);
+    return usage_error(words);
+}
+
+} // namespace
+
+TEST_CASE("a scene alone leaves everything to the scene", "[unit][options]")
+{
+    const Options options = parse("cbox.xml");
+    CHECK(options.verb == Verb::render);
+    CHECK(options.subject == "cbox.xml");
+    CHECK(options.outputs.empty());
+    CHECK(options.json.empty());
+    CHECK(options.exposure == 0.f);
+    CHECK_FALSE(options.quiet);
+    CHECK_FALSE(options.verbose);
+    CHECK_FALSE(options.load.dialect);
+    CHECK_FALSE(options.load.emitters_absorb);
+    CHECK_FALSE(options.load.mirrored_view);
+    CHECK_FALSE(options.load.environment_scale);
+    CHECK_FALSE(options.load.integrator);
+    CHECK_FALSE(options.load.sampler);
+    CHECK_FALSE(options.load.samples_per_pixel);
+    CHECK_FALSE(options.load.resolution);
+    CHECK(options.load.definitions.empty());
+    CHECK(options.load.instruction_set == "avx2");
+    CHECK_FALSE(options.load.lenient);
+    CHECK(options.render.seed == 0);
+    CHECK(options.render.threads == 0);
+    CHECK_FALSE(options.render.crop);
+    CHECK(options.scene_words.empty());
+}
+
+TEST_CASE("every option of a rendering is understood", "[unit][options]")
+{
+    const Options options = parse(
+        "-o a.exr --output b.png -oc.jpg --spp 67108864 --integrator path_mis --sampler independent "
+        "--seed 18446744073709551615 --threads 3 --size 65535x1 --crop 1,2,3,4 -D a=1 -Db=2=3 --define c= "
+        "--dialect eth --emitters absorb --mirror off --envmap-scale 2.5 --isa sse4.2 --exposure -1.5 "
+        "--lenient --quiet --json=out.json scene.xml");
+    CHECK(options.subject == "scene.xml");
+    CHECK(options.outputs == std::vector<std::string>{"a.exr", "b.png", "c.jpg"});
+    CHECK(options.load.samples_per_pixel == 67108864u);
+    CHECK(options.load.integrator == "path_mis");
+    CHECK(options.load.sampler == "independent");
+    CHECK(options.render.seed == 18446744073709551615u);
+    CHECK(options.render.threads == 3);
+    CHECK(options.load.resolution == Vec2i(65535, 1));
+    CHECK(options.render.crop == PixelRect{1, 2, 3, 4});
+    CHECK(options.load.definitions ==
+          std::map<std::string, std::string>{{"a", "1"}, {"b", "2=3"}, {"c", ""}});
+    CHECK(options.load.dialect == DialectName::eth);
+    CHECK(options.load.emitters_absorb == true);
+    CHECK(options.load.mirrored_view == false);
+    CHECK(options.load.environment_scale == 2.5f);
+    CHECK(options.load.instruction_set == "sse4.2");
+    CHECK(options.exposure == -1.5f);
+    CHECK(options.load.lenient);
+    CHECK(options.quiet);
+    CHECK(options.json == "out.json");
+}
+
+TEST_CASE("words with two meanings are read as one", "[unit][options]")
+{
+    CHECK(parse("s.xml --dialect auto").load.dialect == std::nullopt);
+    CHECK(parse("s.xml --emitters scatter").load.emitters_absorb == false);
+    CHECK(parse("s.xml --mirror on").load.mirrored_view == true);
+    CHECK(parse("s.xml --json -").json == "-");
+    CHECK(parse("s.xml --exposure +2").exposure == 2.f);
+    CHECK(parse("s.xml -t 5").render.threads == 5);
+    CHECK(parse("./types").verb == Verb::render);
+    CHECK(parse("./types").subject == "./types");
+    CHECK(parse("-- -s.xml").subject == "-s.xml");
+}
+
+TEST_CASE("verbs come first and take their own options", "[unit][options]")
+{
+    CHECK(parse("types").verb == Verb::types);
+    CHECK(parse("types").subject.empty());
+    CHECK(parse("types diffuse").subject == "diffuse");
+    CHECK(parse("info out.exr").verb == Verb::info);
+    CHECK(parse("info out.exr").subject == "out.exr");
+
+    const Options options = parse("replay s.xml --pixel 3,4 --sample 5 --seed 6 --mirror on");
+    CHECK(options.verb == Verb::replay);
+    CHECK(options.subject == "s.xml");
+    CHECK(options.pixel == Vec2i(3, 4));
+    CHECK(options.sample == 5);
+    CHECK(options.render.seed == 6);
+    CHECK(options.load.mirrored_view == true);
+
+    CHECK(usage_error("s.xml types") == "the verb 'types' must be the first word");
+    CHECK(usage_error("types a b") == "'b' is one word too many after 'a'");
+    CHECK(usage_error("info") == "no image given; 'renderer --help' shows how");
+    CHECK(usage_error("replay s.xml --sample 5") == "replay needs --pixel X,Y");
+    CHECK(usage_error("replay s.xml --pixel 3,4") == "replay needs --sample I");
+    CHECK(usage_error("replay s.xml --pixel 3,4 --sample 5 --crop 1,1,1,1") ==
+          "option '--crop' does not go with replay");
+    CHECK(usage_error("s.xml --pixel 1,1") == "option '--pixel' does not go with rendering");
+    CHECK(usage_error("info a.exr --spp 4") == "option '--spp' does not go with info");
+
+    CHECK(closest_verb("tpyes") == "types");
+    CHECK(closest_verb("cbox.xml").empty());
+}
+
+TEST_CASE("what replay needs is kept, quoted for a shell", "[unit][options]")
+{
+    const Options options =
+        parse_options({"s.xml", "-o", "a.exr", "-D", "n=a b'c", "--quiet", "--seed", "7", "--threads", "2",
+                       "--lenient", "--crop", "0,0,1,1", "--isa", "avx"});
+    CHECK(options.scene_words == " --seed 7 --define 'n=a b'\\''c' --lenient --isa avx");
+}
+
+TEST_CASE("help and version need no scene", "[unit][options]")
+{
+    CHECK(parse("--help").help);
+    CHECK(parse("-h").help);
+    CHECK(parse("replay --help").help);
+    CHECK(parse("--version").version);
+}
+
+TEST_CASE("--help names every option of its verb", "[unit][options]")
+{
+    for (const Verb verb : {Verb::render, Verb::types, Verb::info, Verb::replay}) {
+        const std::string help = help_text(verb);
+        for (const OptionRow& row : option_rows()) {
+            INFO(row.names);
+            const std::string line = std::string(row.long_name()) + " " + row.value;
+            CHECK((help.find(", " + line) != std::string::npos ||
+                   help.find("\n      " + line) != std::string::npos) == row.goes_with(verb));
+        }
+        std::istringstream lines(help);
+        for (std::string line; std::getline(lines, line);) CHECK(line.size() <= 100);
+    }
+}
+
+TEST_CASE("unknown options are named with a way out", "[unit][options]")
+{
+    CHECK(usage_error("s.xml --sp 4") == "unknown option '--sp'; did you mean '--spp'?");
+    CHECK(usage_error("--sp 4 s.xml") == "unknown option '--sp'; did you mean '--spp'?");
+    CHECK(usage_error("s.xml --thread=4") == "unknown option '--thread'; did you mean '--threads'?");
+    CHECK(usage_error("s.xml --samples 4") == "unknown option '--samples'; did you mean '--spp'?");
+    CHECK(usage_error("s.xml --nonsense") ==
+          "unknown option '--nonsense'; 'renderer --help' lists the options");
+    CHECK(usage_error("s.xml --no-gui") == "there is no window: leave out '--no-gui'");
+    CHECK(usage_error("a.xml b.xml") == "'b.xml' is one word too many after 'a.xml'");
+    CHECK(usage_error("") == "no scene file given; 'renderer --help' shows how");
+    CHECK(usage_error("--spp 4") == "no scene file given; 'renderer --help' shows how");
+}
+
+TEST_CASE("values that are missing, doubled or unwanted are errors", "[unit][options]")
+{
+    CHECK(usage_error("s.xml --spp") == "option '--spp' needs a value");
+    CHECK(usage_error("s.xml -o") == "option '--output' needs a value");
+    CHECK(usage_error("--spp= s.xml") == "option '--spp' needs a value");
+    CHECK(usage_error("s.xml --quiet=no") == "option '--quiet' takes no value");
+    CHECK(usage_error("s.xml -o --spp 4") ==
+          "option '--output' needs a value, and '--spp' looks like an option");
+    CHECK(usage_error("s.xml --spp 4 --spp 5") == "option '--spp' is given twice");
+    CHECK(usage_error("s.xml -D a=1 -D a=2") == "--define a is given twice");
+    CHECK(usage_error("s.xml -o a.exr -o a.exr") == "'a.exr' is to be written twice");
+    CHECK(usage_error("s.xml -o a.exr -o ./b/../a.exr") == "'a.exr' is to be written twice");
+    CHECK(usage_error("s.xml -o a.exr --json a.exr") == "'a.exr' is to be written twice");
+    CHECK(usage_error({"s.xml", "-o", ""}) == "--output needs a file name");
+    CHECK(usage_error("s.xml --quiet --verbose") == "--quiet and --verbose exclude each other");
+}
+
+TEST_CASE("numbers use up their word and lie in their range", "[unit][options]")
+{
+    const std::string spp = "--spp must be an integer from 1 to 67108864, not ";
+    for (const std::string value :
+         {"0", "-1", "1.5", "abc", "4x", "67108865", "1e3", "99999999999999999999", "+-4"})
+        CHECK(usage_error("s.xml --spp " + value) == spp + "'" + value + "'");
+    CHECK(usage_error({"s.xml", "--spp", ""}) == spp + "''");
+    CHECK(usage_error({"s.xml", "--spp", " 4"}) == spp + "' 4'");
+
+    CHECK(usage_error("s.xml --threads 0") == "--threads must be an integer from 1 to 1024, not '0'");
+    CHECK(usage_error("s.xml --seed -1") ==
+          "--seed must be an integer from 0 to 18446744073709551615, not '-1'");
+    CHECK(usage_error("s.xml --seed 18446744073709551616") ==
+          "--seed must be an integer from 0 to 18446744073709551615, not '18446744073709551616'");
+    for (const std::string value : {"nan", "inf", "1e99", "101", "-101", "one", "1,5", "0x1"})
+        CHECK(usage_error("s.xml --exposure " + value) ==
+              "--exposure must be a number from -100 to 100, not '" + value + "'");
+    CHECK_THAT(usage_error("s.xml --envmap-scale -1"),
+               ContainsSubstring("--envmap-scale must be a number from 0"));
+    for (const std::string value :
+         {"640", "640x", "x480", "640x480x2", "0x480", "640x0", "65536x1", "640X480", "a", "-1x1"})
+        CHECK(usage_error("s.xml --size " + value) ==
+              "--size must be WIDTHxHEIGHT, integers from 1 to 65535 as in 640x480, not '" + value + "'");
+    for (const std::string value :
+         {"1,2,3", "1,2,3,4,5", "-1,2,3,4", "1,2,0,4", "1,2,3,0", "a,b,c,d", "1,2,3,"})
+        CHECK(usage_error("s.xml --crop " + value) ==
+              "--crop must be X,Y,WIDTH,HEIGHT, integers with X and Y from 0 and WIDTH and HEIGHT from 1 to "
+              "65535, not '" +
+                  value + "'");
+    CHECK_THAT(usage_error("replay s.xml --sample 0 --pixel 1"), ContainsSubstring("--pixel must be X,Y"));
+}
+
+TEST_CASE("words of a choice are checked", "[unit][options]")
+{
+    CHECK(usage_error("s.xml --dialect zaragosa") ==
+          "--dialect cannot be 'zaragosa'; did you mean 'zaragoza'?");
+    CHECK_THAT(usage_error("s.xml --dialect x"),
+               ContainsSubstring("auto, plumb, epfl, eth, zaragoza and mcgill"));
+    CHECK_THAT(usage_error("s.xml --emitters reflect"),
+               ContainsSubstring("--emitters cannot be 'reflect'; known are scatter and absorb"));
+    CHECK_THAT(usage_error("s.xml --mirror yes"), ContainsSubstring("known are on and off"));
+    CHECK(usage_error("s.xml --isa avx3") == "--isa cannot be 'avx3'; did you mean 'avx'?");
+    CHECK(usage_error("s.xml -D name") == "--define must be name=value, not 'name'");
+    CHECK(usage_error("s.xml -D =value") == "--define must be name=value, not '=value'");
+}

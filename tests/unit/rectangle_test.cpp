@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+
+#include "plumb/shape.h"
+
+#include "support/catch.h"
+#include "support/params.h"
+#include "support/random.h"
+
+namespace plumb {
+class Rectangle;
+}
+
+namespace plumb::test {
+namespace {
+
+ParamsBuilder rectangle()
+{
+    return ParamsBuilder("shape", "rectangle");
+}
+
+// The corner at uv, by sampling.
+Vec3f corner(const Shape& shape, float u, float v)
+{
+    return shape.sample_area(0.0, Vec2f(u, v)).position;
+}
+
+void check_near(const Vec3f& a, const Vec3f& b)
+{
+    CAPTURE(a.x, a.y, a.z, b.x, b.y, b.z);
+    CHECK(length(a - b) < 1e-6f);
+}
+
+// Where the middle of each edge lies from the centre: u = 1 is the end of the width, v = 1 of the height.
+void check_axes(const Shape& shape, const Vec3f& width, const Vec3f& height)
+{
+    const Vec3f center = corner(shape, 0.5f, 0.5f);
+    check_near(corner(shape, 1.f, 0.5f) - center, width * 0.5f);
+    check_near(corner(shape, 0.5f, 1.f) - center, height * 0.5f);
+}
+
+} // namespace
+
+TEST_CASE("a rectangle without parameters is the unit square facing +z", "[unit][shape]")
+{
+    const auto square = rectangle().build<Rectangle, Shape>();
+    CHECK(square->area() == 1.f);
+    CHECK(square->bounds().min == Vec3f(-0.5f, -0.5f, 0));
+    CHECK(square->bounds().max == Vec3f(0.5f, 0.5f, 0));
+    CHECK(square->triangle_count() == 2);
+    check_axes(*square, Vec3f(1, 0, 0), Vec3f(0, 1, 0));
+    const SurfacePoint at = square->surface_at({Vec3f(0.25f, -0.25f, 2), Vec3f(0, 0, -1)}, 0);
+    CHECK(at.position == Vec3f(0.25f, -0.25f, 0));
+    CHECK(at.geometric_normal == Vec3f(0, 0, 1));
+    CHECK(at.shading.n == Vec3f(0, 0, 1));
+    CHECK(at.uv == Vec2f(0.75f, 0.25f));
+    CHECK(at.error.z == 0.f);
+}
+
+TEST_CASE("width runs along x in the plane, height along normal x width", "[unit][shape]")
+{
+    const auto facing = [](const Vec3f& normal) {
+        return rectangle()
+            .number("width", 2)
+            .number("height", 3)
+            .vector("normal", normal)
+            .build<Rectangle, Shape>();
+    };
+    check_axes(*facing(Vec3f(0, 5, 0)), Vec3f(2, 0, 0), Vec3f(0, 0, -3));
+    check_axes(*facing(Vec3f(0, -1, 0)), Vec3f(2, 0, 0), Vec3f(0, 0, 3));
+    check_axes(*facing(Vec3f(0, 0, -1)), Vec3f(2, 0, 0), Vec3f(0, -3, 0));
+    // Along z if the normal is +-x.
+    check_axes(*facing(Vec3f(1, 0, 0)), Vec3f(0, 0, 2), Vec3f(0, -3, 0));
+    check_axes(*facing(Vec3f(-1, 0, 0)), Vec3f(0, 0, 2), Vec3f(0, 3, 0));
+    // x projected onto the plane perpendicular to (1, 1, 0) is (1, -1, 0).
+    const float h = std::sqrt(0.5f);
+    check_axes(*facing(Vec3f(1, 1, 0)), Vec3f(2 * h, -2 * h, 0), Vec3f(0, 0, -3));
+}
+
+TEST_CASE("uv of a rectangle agree between hits and samples", "[unit][shape]")
+{
+    const auto shape = rectangle()
+                           .point("center", Vec3f(1, 2, 3))
+                           .number("width", 2)
+                           .number("height", 0.5)
+                           .vector("normal", Vec3f(1, -2, 0.5f))
+                           .transform("toWorld", Transform::rotate(Vec3d(1, 1, 0), 20))
+                           .build<Rectangle, Shape>();
+    TestRandom random;
+    for (int i = 0; i < 200; ++i) {
+        const Vec2f u = random.next_2d();
+        const ShapeSample sample = shape->sample_area(0.0, u);
+        CHECK(sample.uv == u);
+        CHECK(sample.pdf == Approx(1.0));
+        const Vec3f origin = sample.position + sample.normal;
+        const std::uint32_t triangle = u.y <= u.x ? 0 : 1;
+        const SurfacePoint at = shape->surface_at({origin, sample.position - origin}, triangle);
+        CHECK((at.uv - u).length() < 1e-5f);
+        CHECK(length(at.position - sample.position) < 1e-5f);
+        CHECK(at.geometric_normal == sample.normal);
+    }
+}
+
+TEST_CASE("toWorld is applied last and may shear or mirror a rectangle", "[unit][shape]")
+{
+    const auto sheared =
+        rectangle()
+            .transform("toWorld",
+                       *Transform::from_rows({{{2, 1, 0, 0}, {0, 3, 0, 0}, {0, 0, 1, 4}, {0, 0, 0, 1}}}))
+            .build<Rectangle, Shape>();
+    CHECK(sheared->area() == 6.f);
+    CHECK(sheared->sample_area(0.0, Vec2f(0.f)).position == Vec3f(-1.5f, -1.5f, 4));
+    CHECK(sheared->sample_area(0.0, Vec2f(0.f)).normal == Vec3f(0, 0, 1));
+
+    // Mirrored along x: the front still faces +z. Along z: -z.
+    const auto mirrored = [](const Vec3d& factors) {
+        const auto shape =
+            rectangle().transform("toWorld", *Transform::scale(factors)).build<Rectangle, Shape>();
+        return shape->sample_area(0.0, Vec2f(0.5f)).normal;
+    };
+    CHECK(mirrored(Vec3d(-1, 1, 1)) == Vec3f(0, 0, 1));
+    CHECK(mirrored(Vec3d(1, 1, -1)) == Vec3f(0, 0, -1));
+    CHECK(mirrored(Vec3d(-1, 1, -1)) == Vec3f(0, 0, -1));
+}
+
+TEST_CASE("bad rectangles are errors", "[unit][shape]")
+{
+    CHECK_THAT((rectangle().number("width", 0).complaints<Rectangle, Shape>().at(0)),
+               ContainsSubstring("width must be greater than 0"));
+    CHECK_THAT((rectangle().number("height", -2).complaints<Rectangle, Shape>().at(0)),
+               ContainsSubstring("height must be greater than 0"));
+    CHECK_THAT((rectangle().vector("normal", Vec3f(0.f)).complaints<Rectangle, Shape>().at(0)),
+               ContainsSubstring("normal must not be 0"));
+    CHECK(
+        (rectangle().number("width", 1e-30).number("height", 1e-30).complaints<Rectangle, Shape>().size()) ==
+        1);
+}
+
+} // namespace plumb::test

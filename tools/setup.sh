@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: MIT
+# shellcheck shell=bash
+# Sourced by tools/run, tools/test and tools/check: installs what is missing, configures and builds.
+# Everything it says goes to stderr.
+#
+# Environment:
+#   PLUMB_SKIP_INSTALL=1            do not look for packages: everything needed is there
+#   CMAKE_BUILD_PARALLEL_LEVEL=N    compile N files at a time
+#   CXX=clang++                     the compiler, when a build folder is configured for the first time
+
+plumb_root="$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)"
+
+plumb_packages=(
+    g++ cmake ninja-build
+    libembree-dev libopenimageio-dev libopenexr-dev libimath-dev
+    libtinyobjloader-dev libpugixml-dev libtbb-dev libcli11-dev libfmt-dev catch2
+)
+
+say() { printf 'plumb: %s\n' "$*" >&2; }
+die() { say "$@"; exit 1; }
+
+# Prints the packages among the arguments that are not installed, on one line.
+missing_packages() {
+    local installed
+    # dpkg-query fails when it has never heard of a package: that one is missing, too.
+    installed=" $(dpkg-query --show --showformat='${db:Status-Status}:${Package} ' "$@" 2>/dev/null || true)"
+    local package
+    for package in "$@"; do
+        [[ $installed == *" installed:$package "* ]] || printf '%s ' "$package"
+    done
+}
+
+say_what_is_needed() {
+    say "this system has no apt-get, so nothing can be installed for you"
+    say "Plumb needs a C++20 compiler, CMake 3.22 and Ninja, and these libraries with their headers:"
+    say "    Embree 3.13 or 4, OpenImageIO, OpenEXR, Imath 3, tinyobjloader, pugixml, oneTBB, CLI11, fmt, Catch2 2 or 3"
+    say "In Debian 12 and 13 they are: ${plumb_packages[*]}"
+    say "Once they are there: PLUMB_SKIP_INSTALL=1 $0 ..."
+}
+
+# Runs a command with its output in a file; shows the file only if the command fails.
+quietly() {
+    local log status=0
+    log="$(mktemp)"
+    "$@" </dev/null >"$log" 2>&1 || status=$?
+    ((status == 0)) || cat -- "$log" >&2
+    rm -f -- "$log"
+    return "$status"
+}
+
+# Installs those of the given packages that are missing; does nothing, fast, if none is.
+install_packages() {
+    [[ ${PLUMB_SKIP_INSTALL:-} != 1 ]] || return 0
+    if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
+        say_what_is_needed
+        exit 1
+    fi
+    local missing
+    read -r -a missing <<<"$(missing_packages "$@")"
+    ((${#missing[@]} > 0)) || return 0
+
+    local as_root=()
+    if ((EUID != 0)); then
+        command -v sudo >/dev/null ||
+            die "these packages are missing, and installing them takes root or sudo: ${missing[*]}"
+        as_root=(sudo)
+    fi
+    as_root+=(env DEBIAN_FRONTEND=noninteractive)
+    say "installing with apt-get, with what they depend on: ${missing[*]}"
+
+    local install=("${as_root[@]}" apt-get install --yes --no-install-recommends "${missing[@]}")
+    local fresh
+    fresh="$(find /var/lib/apt/lists -maxdepth 1 -name '*Packages*' -mtime -7 -print -quit 2>/dev/null || true)"
+    if [[ -z $fresh ]]; then
+        quietly "${as_root[@]}" apt-get update || die "apt-get update failed"
+        quietly "${install[@]}" || die "apt-get install failed"
+    elif ! "${install[@]}" </dev/null >/dev/null 2>&1; then
+        # The lists are too old for the mirror, perhaps.
+        quietly "${as_root[@]}" apt-get update || die "apt-get update failed"
+        quietly "${install[@]}" || die "apt-get install failed"
+    fi
+}
+
+# build_folder PRESET: where CMakePresets.json builds it.
+build_folder() {
+    case $1 in
+        release) printf '%s\n' "$plumb_root/build" ;;
+        debug | asan) printf '%s\n' "$plumb_root/build-$1" ;;
+        *) die "unknown preset '$1': release, debug or asan" ;;
+    esac
+}
+
+# build PRESET [TARGET]: configures if that was never done or the tree has moved, and builds.
+build() {
+    local preset=$1 target=${2:-all} folder
+    folder="$(build_folder "$preset")"
+    mkdir -p -- "$folder"
+    (
+        # One build at a time in one folder. The file is open in this subshell only.
+        exec 9>"$folder/.lock"
+        ! command -v flock >/dev/null || flock 9
+        cd -- "$plumb_root"
+        local cache=$folder/CMakeCache.txt
+        if [[ -f $cache ]] && ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$plumb_root" "$cache"; then
+            say "$folder was configured for another folder; starting again"
+            rm -rf -- "$cache" "$folder/CMakeFiles" "$folder/build.ninja"
+        fi
+        if [[ ! -f $folder/build.ninja ]]; then
+            say "configuring and building the '$preset' preset in $folder; this takes some minutes, once"
+            quietly cmake --preset "$preset" 9>&- || die "configuring failed"
+        fi
+        quietly cmake --build "$folder" --target "$target" -- --quiet 9>&- || die "the build failed"
+    )
+}
