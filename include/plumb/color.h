@@ -25,9 +25,9 @@ struct Color {
     constexpr Color& operator*=(float s) { return *this = Color(r * s, g * s, b * s); }
     constexpr Color& operator/=(float s) { return *this = Color(r / s, g / s, b / s); }
 
-    friend constexpr Color operator+(Color a, const Color& b) { return a += b; }
-    friend constexpr Color operator-(Color a, const Color& b) { return a -= b; }
-    friend constexpr Color operator*(Color a, const Color& b) { return a *= b; }
+    friend constexpr Color operator+(Color x, const Color& y) { return x += y; }
+    friend constexpr Color operator-(Color x, const Color& y) { return x -= y; }
+    friend constexpr Color operator*(Color x, const Color& y) { return x *= y; }
     friend constexpr Color operator*(Color a, float s) { return a *= s; }
     friend constexpr Color operator*(float s, Color a) { return a *= s; }
     friend constexpr Color operator/(Color a, float s) { return a /= s; }

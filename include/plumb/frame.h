@@ -51,7 +51,7 @@ inline float tan_theta_squared(const Vec3f& w)
 
 inline bool same_hemisphere(const Vec3f& a, const Vec3f& b)
 {
-    return a.z * b.z > 0.f;
+    return a.z > 0.f ? b.z > 0.f : a.z < 0.f && b.z < 0.f; // a product could underflow
 }
 
 } // namespace plumb

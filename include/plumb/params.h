@@ -113,6 +113,7 @@ public:
     // A parameter that files carry and we do not read: accepted; with a warning unless the message is empty.
     void ignore(std::string_view name, std::string message = {}) const;
 
+    bool is_unused(std::string_view name) const; // given, and neither asked for nor ignored
     void reject_unused() const;
     const std::vector<std::string>& asked_names() const { return asked_; }
     const std::vector<std::filesystem::path>& files() const { return files_; } // that file() found

@@ -57,7 +57,7 @@ public:
         const Beckmann microfacets = beckmann_at(*alpha_, at.uv);
         const Vec3f wh = microfacets.sample(u);
         const float cos_i = dot(wi, wh);
-        if (!(cos_i * wi.z > 0.f)) return std::nullopt;
+        if (!same_side(cos_i, wi.z)) return std::nullopt;
         const Refraction fresnel = fresnel_dielectric(cos_i, eta_);
         const bool reflected = u_lobe < fresnel.reflectance;
         const std::optional<Vec3f> wo = reflected ? reflect(wi, wh) : refract(wi, wh, eta_);
@@ -70,6 +70,9 @@ public:
     }
 
 private:
+    // Whether both cosines have the same sign; their product could underflow.
+    static bool same_side(float a, float b) { return a > 0.f ? b > 0.f : a < 0.f && b < 0.f; }
+
     BsdfValue evaluate(const Beckmann& microfacets, const Color& ka, const Vec3f& wi, const Vec3f& wo) const
     {
         return same_hemisphere(wi, wo) ? reflection(microfacets, ka, wi, wo)
@@ -99,11 +102,15 @@ private:
         // Both directions must see their own side of the microfacet.
         const float cos_i = static_cast<float>(dot(Vec3d(wi), half));
         const float cos_o = static_cast<float>(dot(Vec3d(wo), half));
-        if (!(cos_i * wi.z > 0.f && cos_o * wo.z > 0.f)) return {};
+        if (!same_side(cos_i, wi.z) || !same_side(cos_o, wo.z)) return {};
+
+        // The reflectance is the same from both sides. Near the critical angle only the thinner side's cosine keeps
+        // its digits.
+        const bool wi_in_thinner = (wi.z > 0.f) == (eta_ > 1.f);
+        const float transmittance = 1.f - fresnel_dielectric(wi_in_thinner ? cos_i : cos_o, eta_).reflectance;
 
         // [1], equations 17 and 21: the denominator (wi . wh eta_i + wo . wh eta_t)^2 / eta_t^2 is the squared length
         // of the sum above.
-        const float transmittance = 1.f - fresnel_dielectric(cos_i, eta_).reflectance;
         const float d = microfacets.d(wh);
         const float jacobian =
             static_cast<float>(static_cast<double>(std::abs(cos_o)) / length_squared_of_sum);

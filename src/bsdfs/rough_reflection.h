@@ -28,12 +28,12 @@ struct RoughReflection {
 // wi and wo lie on one side of the surface.
 inline RoughReflection rough_reflection(const Beckmann& microfacets, const Vec3f& wi, const Vec3f& wo)
 {
-    // [1], equation 13. The length of the sum is twice the cosine, whichever way light goes; the bound keeps the
-    // density finite where both directions graze the surface.
+    // [1], equation 13. The length of the sum is twice the cosine, the same whichever way light goes.
     const Vec3d sum = Vec3d(wi) + Vec3d(wo);
-    const double sum_length = std::max(length(sum), 2e-20);
+    const double sum_length = length(sum);
     const Vec3f wh(sum * (std::copysign(1.0, sum.z) / sum_length));
-    const float cos_h = static_cast<float>(0.5 * sum_length);
+    // The bound keeps the density finite where both directions graze the surface.
+    const float cos_h = std::max(static_cast<float>(0.5 * sum_length), 1e-20f);
 
     const float d = microfacets.d(wh);
     const float g_over_cosine = microfacets.g(wi, wo, wh) / (4.f * std::abs(wi.z));

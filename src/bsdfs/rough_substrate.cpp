@@ -68,7 +68,12 @@ private:
           base_scale_(
               28.f / (23.f * pi) *
               (1.f - sqr((indices.exterior - indices.interior) / (indices.exterior + indices.interior))))
-    {}
+    {
+        if (eta_ < 1.f)
+            params.warn("intIOR",
+                        "intIOR is below extIOR: beyond the critical angle this model reflects more light "
+                        "than it receives");
+    }
 
     Material material(const SurfacePoint& at, const Vec3f& wi) const
     {

@@ -69,8 +69,8 @@ public:
     CameraRay sample_ray(Vec2f raster, Vec2f u_lens) const override
     {
         // The point of the plane z = 1 seen through this place of the picture; row 0 is up, column 0 is left.
-        const Vec3d towards((1.0 - 2.0 * raster.x / resolution_.x) * half_width_,
-                            (1.0 - 2.0 * raster.y / resolution_.y) * half_height_, 1.0);
+        const Vec3d towards(half_width_ - raster.x * pixel_width_, half_height_ - raster.y * pixel_height_,
+                            1.0);
         Vec3d origin(0.0, 0.0, 0.0);
         Vec3d direction = towards;
         if (lens_radius_ > 0.0) {
@@ -79,12 +79,14 @@ public:
             direction = towards * focal_distance_ - origin;
         }
         const Vec3d world = to_world_.vector(direction);
-        const double world_length = length(world);
-        // One step along the unit direction is this much along camera +z.
-        const double z_per_unit = direction.z / world_length;
-        return {{Vec3f(to_world_.point(origin)), Vec3f(world * (1.0 / world_length)),
-                 static_cast<float>(near_clip_ / z_per_unit), static_cast<float>(far_clip_ / z_per_unit)},
-                Color(1.f)};
+        const double scale = 1.0 / length(world);
+        Ray ray{Vec3f(lens_radius_ > 0.0 ? to_world_.point(origin) : position_), Vec3f(world * scale)};
+        if (clips_) {
+            // One step along the unit direction is direction.z * scale along camera +z.
+            ray.t_min = static_cast<float>(near_clip_ / (direction.z * scale));
+            ray.t_max = static_cast<float>(far_clip_ / (direction.z * scale));
+        }
+        return {ray, Color(1.f)};
     }
 
     Vec2i resolution() const override { return resolution_; }
@@ -117,6 +119,10 @@ private:
     Transform to_world_;
     double half_width_ = 1.0; // of the picture in the plane z = 1; negative where the view is mirrored
     double half_height_ = 1.0;
+    double pixel_width_ = 0.0; // of one pixel in that plane
+    double pixel_height_ = 0.0;
+    Vec3d position_;
+    bool clips_ = false;
     double near_clip_ = 0.0;
     double far_clip_ = std::numeric_limits<double>::infinity();
     double lens_radius_ = 0.0;

@@ -35,7 +35,8 @@ void check_outputs(const std::vector<std::string>& outputs, const std::string& j
     std::vector<std::filesystem::path> seen;
     for (const std::string& file : files) {
         std::error_code ignored;
-        const auto path = std::filesystem::weakly_canonical(file, ignored);
+        const auto path =
+            std::filesystem::weakly_canonical(std::filesystem::absolute(file, ignored), ignored);
         if (ignored || path.empty()) continue;
         if (std::find(seen.begin(), seen.end(), path) != seen.end())
             throw UsageError(fmt::format("'{}' is to be written twice", file));

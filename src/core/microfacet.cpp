@@ -22,7 +22,8 @@ float Beckmann::d(const Vec3f& wh) const
 
 float Beckmann::g1(const Vec3f& v, const Vec3f& wh) const
 {
-    if (!(dot(v, wh) * v.z > 0.f)) return 0.f;
+    const float cos_h = dot(v, wh);
+    if (!(v.z > 0.f ? cos_h > 0.f : v.z < 0.f && cos_h < 0.f)) return 0.f; // a product could underflow
     const float sine = std::sqrt(sqr(v.x) + sqr(v.y));
     const float a = std::abs(v.z) / (alpha_ * sine); // infinite along the normal
     if (!(a < 1.6f)) return 1.f;

@@ -131,17 +131,45 @@ private:
         return two_pi_ / bitmap_->width() * (cos_theta_[row] - cos_theta_[row + 1]);
     }
 
-    // The texels that lookups in cell k of an axis read, and the mean weights that they have there. Where values are
-    // in the middle of pixels, the weight of the cell's own texel rises from 1/2 to 1 and falls again: 3/4 on average.
+    // The texels that lookups in a cell read, along one axis, and their mean weights over the cell.
     struct Taps {
         int texel[3];
         double weight[3];
     };
-    Taps taps(int k, int size, bool repeat) const
+
+    // `first` and `second`: where the halves of the cell have their centres of mass, from 0 to 1/2 and from 1/2 to 1;
+    // `share`: the part of the mass that is in the first half.
+    Taps taps(int cell, int size, bool repeat, double first, double second, double share) const
     {
         const auto wrap = [&](int t) { return repeat ? (t + size) % size : std::clamp(t, 0, size - 1); };
-        if (flipped_) return {{wrap(size - 1 - k), wrap(size - k), 0}, {0.5, 0.5, 0.0}};
-        return {{wrap(k - 1), k, wrap(k + 1)}, {0.125, 0.75, 0.125}};
+        if (flipped_) { // linear from one texel at the cell's beginning to the other at its end
+            const double mean = share * first + (1.0 - share) * second;
+            return {{wrap(size - cell), wrap(size - 1 - cell), 0}, {1.0 - mean, mean, 0.0}};
+        }
+        // Linear in each half: from midway between the texel before and the cell's own to that one, and on.
+        const double before = share * (0.5 - first);
+        const double after = (1.0 - share) * (second - 0.5);
+        return {{wrap(cell - 1), cell, wrap(cell + 1)}, {before, 1.0 - before - after, after}};
+    }
+
+    Taps column_taps(int column) const { return taps(column, bitmap_->width(), true, 0.25, 0.75, 0.5); }
+
+    // As much of a row is at theta as its ring is long: sin(theta).
+    Taps row_taps(int row) const
+    {
+        const double height = bitmap_->height();
+        const auto theta = [&](double y) { return pi_d * y / height; };
+        const auto mass = [&](double y) { return -sin_cos(theta(y)).cos; };
+        const auto moment = [&](double y) {
+            return sin_cos(theta(y)).sin - theta(y) * sin_cos(theta(y)).cos;
+        };
+        const auto center = [&](double begin, double end) {
+            const double mean = (moment(end) - moment(begin)) / (mass(end) - mass(begin)); // of theta
+            return std::clamp(mean * height / pi_d, begin, end) - row;
+        };
+        const double share = (mass(row + 0.5) - mass(row)) / (mass(row + 1.0) - mass(row));
+        return taps(row, bitmap_->height(), flipped_, center(row, row + 0.5), center(row + 0.5, row + 1.0),
+                    share);
     }
 
     void tabulate()
@@ -150,22 +178,24 @@ private:
         const int height = bitmap_->height();
         for (int j = 0; j <= height; ++j) cos_theta_.push_back(sin_cos(pi_d * j / height).cos);
 
-        std::vector<double> row(
-            static_cast<std::size_t>(width)); // of the bitmap, averaged over a cell's height
+        // A row of the bitmap averaged over the height of cells, then over their widths.
+        std::vector<double> row(static_cast<std::size_t>(width));
         std::vector<double> cells(row.size());
         std::vector<double> row_weights;
+        std::vector<Taps> beside;
+        for (int i = 0; i < width; ++i) beside.push_back(column_taps(i));
         for (int j = 0; j < height; ++j) {
-            const Taps above = taps(j, height, flipped_);
+            const Taps above = row_taps(j);
             for (int x = 0; x < width; ++x) {
                 double& sum = row[static_cast<std::size_t>(x)] = 0.0;
                 for (int t = 0; t < 3; ++t)
                     sum += above.weight[t] * luminance(bitmap_->texel(x, above.texel[t]));
             }
             for (int i = 0; i < width; ++i) {
-                const Taps beside = taps(i, width, true);
+                const Taps& column = beside[static_cast<std::size_t>(i)];
                 double& sum = cells[static_cast<std::size_t>(i)] = 0.0;
                 for (int t = 0; t < 3; ++t)
-                    sum += beside.weight[t] * row[static_cast<std::size_t>(beside.texel[t])];
+                    sum += column.weight[t] * row[static_cast<std::size_t>(column.texel[t])];
             }
             column_choice_.emplace_back(cells);
             row_weights.push_back(column_choice_.back().sum() * solid_angle(static_cast<std::size_t>(j)));

@@ -257,6 +257,12 @@ void Params::ignore(std::string_view name, std::string message) const
     if (!message.empty()) diagnostics_.warning(found->second.name_at, std::move(message));
 }
 
+bool Params::is_unused(std::string_view name) const
+{
+    const auto found = properties_.find(name);
+    return found != properties_.end() && !found->second.asked;
+}
+
 void Params::reject_unused() const
 {
     const std::vector<std::string_view> known(asked_.begin(), asked_.end());

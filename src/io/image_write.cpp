@@ -7,14 +7,17 @@
 #include "plumb/error.h"
 #include "plumb/image.h"
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
-#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <new>
+#include <span>
 #include <unistd.h>
+#include <utility>
 
 namespace plumb {
 
@@ -55,7 +58,7 @@ const Format& format_of(const std::filesystem::path& path)
     fail(path, fmt::format("unknown extension '{}'; known are {}", path.extension().string(), known));
 }
 
-// A new, empty file beside `path`, with the same extension; gone again when this goes, unless it took path's place.
+// A new, empty file beside `path`; gone again when this goes, unless it took path's place.
 class TemporaryFile {
 public:
     explicit TemporaryFile(const std::filesystem::path& path) : target_(path)
@@ -63,36 +66,38 @@ public:
         constexpr int attempts = 1000;
         for (int i = 0; i < attempts; ++i) {
             name_ = path;
-            name_.replace_filename(
-                fmt::format(".{}.part{}{}", path.stem().string(), i, path.extension().string()));
-            if (std::FILE* const file = std::fopen(name_.c_str(), "wbx")) { // x: fails if the file exists
-                std::fclose(file);
-                return;
-            }
+            name_.replace_filename(fmt::format(".{}.part{}", path.filename().string(), i));
+            file_ = std::fopen(name_.c_str(), "wbx"); // x: fails if the file exists
+            if (file_) return;
             if (errno != EEXIST) break;
         }
-        const std::string reason = std::strerror(errno);
-        name_.clear();
-        fail(target_, reason);
+        fail(target_, std::strerror(errno));
     }
     TemporaryFile(const TemporaryFile&) = delete;
     TemporaryFile& operator=(const TemporaryFile&) = delete;
     ~TemporaryFile()
     {
-        if (!name_.empty()) std::remove(name_.c_str());
+        if (file_) std::fclose(file_);
+        if (!took_place_) std::remove(name_.c_str());
     }
 
-    std::string name() const { return name_.string(); }
+    void write(std::span<const unsigned char> bytes)
+    {
+        const bool good = std::fwrite(bytes.data(), 1, bytes.size(), file_) == bytes.size();
+        if (!good || std::fclose(std::exchange(file_, nullptr)) != 0) fail(target_, std::strerror(errno));
+    }
 
     void take_place()
     {
         if (std::rename(name_.c_str(), target_.c_str()) != 0) fail(target_, std::strerror(errno));
-        name_.clear();
+        took_place_ = true;
     }
 
 private:
     std::filesystem::path target_;
     std::filesystem::path name_;
+    std::FILE* file_ = nullptr;
+    bool took_place_ = false;
 };
 
 OIIO::ImageSpec spec_of(const Image& image, const Format& format)
@@ -146,16 +151,19 @@ std::vector<std::uint8_t> encode_srgb(const Image& image, float exposure)
     return bytes;
 }
 
-// Empty if all went well, else the reason.
-std::string write_file(const std::string& name, const Image& image, const Format& format, float exposure)
+// What the file will hold. Encoded in memory and written by us, because libjpeg ends the process if it cannot write.
+std::vector<unsigned char> encode(const std::string& name, const Image& image, const Format& format,
+                                  float exposure)
 {
     OIIO::attribute("debug", 0); // never print
     const QuietStandardError quiet;
     const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(name);
-    if (!output) return one_line(OIIO::geterror());
-    const PixelRect& data = image.data_window();
-    bool good = output->open(name, spec_of(image, format));
+    if (!output) throw Error(OIIO::geterror());
+    std::vector<unsigned char> file;
+    OIIO::Filesystem::IOVecOutput memory(file);
+    bool good = output->set_ioproxy(&memory) && output->open(name, spec_of(image, format));
     if (good && format.encoding == Encoding::linear_float) {
+        const PixelRect& data = image.data_window();
         good = output->write_image(OIIO::TypeFloat, image.pixel(data.x, data.y));
     } else if (good) {
         const std::vector<std::uint8_t> bytes = encode_srgb(image, exposure);
@@ -164,8 +172,8 @@ std::string write_file(const std::string& name, const Image& image, const Format
     std::string reason = output->geterror();
     good = output->close() && good;
     reason += output->geterror(); // fetched in any case: what is not would be printed
-    if (good) return {};
-    return reason.empty() ? "the disk may be full" : one_line(reason);
+    if (!good) throw Error(reason.empty() ? "this format cannot hold the picture" : reason);
+    return file;
 }
 
 } // namespace
@@ -190,15 +198,15 @@ void write_image(const std::filesystem::path& path, const Image& image, float ex
 {
     check_image_path(path);
     TemporaryFile file(path);
-    std::string reason;
+    std::vector<unsigned char> bytes;
     try {
-        reason = write_file(file.name(), image, format_of(path), exposure);
+        bytes = encode(path.string(), image, format_of(path), exposure);
     } catch (const std::bad_alloc&) {
-        reason = "not enough memory";
-    } catch (const std::exception& e) { // whatever OpenImageIO lets through
-        reason = one_line(e.what());
+        fail(path, "not enough memory");
+    } catch (const std::exception& error) { // ours, and whatever OpenImageIO lets through
+        fail(path, one_line(error.what()));
     }
-    if (!reason.empty()) fail(path, reason);
+    file.write(bytes);
     file.take_place();
 }
 

@@ -2,6 +2,7 @@
 
 #include "io/obj_scan.h"
 
+#include "io/obj_characters.h"
 #include "io/obj_number.h"
 #include "plumb/error.h"
 
@@ -18,33 +19,6 @@ namespace {
 
 constexpr float largest_coordinate = 1e18f;
 constexpr std::size_t batch_size = std::size_t{1} << 18; // bytes of faces that are passed on at once
-
-bool is_blank(char c)
-{
-    return c == ' ' || c == '\t';
-}
-
-bool is_line_end(char c)
-{
-    return c == '\n' || c == '\r';
-}
-
-bool is_digit(char c)
-{
-    return c >= '0' && c <= '9';
-}
-
-const char* skip_blanks(const char* p)
-{
-    while (is_blank(*p)) ++p;
-    return p;
-}
-
-const char* token_end(const char* p)
-{
-    while (!is_blank(*p) && !is_line_end(*p)) ++p;
-    return p;
-}
 
 // What a line's keyword means, for messages.
 struct Numbers {
@@ -119,12 +93,6 @@ private:
         return next_line(rest);
     }
 
-    static const char* next_line(const char* p)
-    {
-        while (!is_line_end(*p)) ++p;
-        return p[0] == '\r' && p[1] == '\n' ? p + 2 : p + 1;
-    }
-
     // All numbers of a line; `values` receives the first ones.
     const char* scan_numbers(const char* keyword, const char* p, const Numbers& kind, float (&values)[3])
     {
@@ -151,8 +119,8 @@ private:
             return read.value;
         if (token.ends_with('\\')) fail_continued(token);
         if (read.verdict == ObjNumber::Verdict::unreadable)
-            fail(token, fmt::format("'{}' is not a number; {} is written {}", excerpt(token), kind.name,
-                                    kind.form));
+            fail(token,
+                 fmt::format("'{}' is not a number; {} is written {}", excerpt(token), kind.name, kind.form));
         if (read.verdict == ObjNumber::Verdict::not_finite)
             fail(token, fmt::format("numbers must be finite, not '{}'", excerpt(token)));
         fail(token, fmt::format("numbers must lie between -1e18 and 1e18, not '{}'", excerpt(token)));

@@ -13,20 +13,37 @@ namespace {
 
 using Words = std::array<std::uint32_t, 4>;
 
-// Philox4x32 with 10 rounds, [1], section 3.3: a keyed bijection of 128-bit counters whose outputs pass BigCrush.
-Words philox(Words counter, std::uint64_t key)
-{
-    auto key0 = static_cast<std::uint32_t>(key);
-    auto key1 = static_cast<std::uint32_t>(key >> 32);
-    for (int round = 0; round < 10; ++round) {
-        const std::uint64_t a = std::uint64_t{0xD2511F53u} * counter[0];
-        const std::uint64_t b = std::uint64_t{0xCD9E8D57u} * counter[2];
-        counter = {static_cast<std::uint32_t>(b >> 32) ^ counter[1] ^ key0, static_cast<std::uint32_t>(b),
-                   static_cast<std::uint32_t>(a >> 32) ^ counter[3] ^ key1, static_cast<std::uint32_t>(a)};
-        key0 += 0x9E3779B9u;
-        key1 += 0xBB67AE85u;
+// The key of one round, [1], section 3.3: Weyl sequences of the golden ratio and of sqrt(3) - 1.
+struct Key {
+    std::uint32_t low;
+    std::uint32_t high;
+    void advance()
+    {
+        low += 0x9E3779B9u;
+        high += 0xBB67AE85u;
     }
-    return counter;
+};
+
+inline Words philox_round(const Words& counter, const Key& key)
+{
+    const std::uint64_t a = std::uint64_t{0xD2511F53u} * counter[0];
+    const std::uint64_t b = std::uint64_t{0xCD9E8D57u} * counter[2];
+    return {static_cast<std::uint32_t>(b >> 32) ^ counter[1] ^ key.low, static_cast<std::uint32_t>(b),
+            static_cast<std::uint32_t>(a >> 32) ^ counter[3] ^ key.high, static_cast<std::uint32_t>(a)};
+}
+
+// Philox4x32 with 10 rounds, [1], section 3.3: a keyed bijection of 128-bit counters whose outputs pass BigCrush. Of
+// this counter and of the next at once: a round waits for its multiplications, and two can wait together.
+std::array<std::uint32_t, 8> philox_pair(const Words& counter, std::uint64_t seed)
+{
+    Key key{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)};
+    Words first = counter;
+    Words second{counter[0] + 1, counter[1], counter[2], counter[3]};
+    for (int round = 0; round < 10; ++round, key.advance()) {
+        first = philox_round(first, key);
+        second = philox_round(second, key);
+    }
+    return {first[0], first[1], first[2], first[3], second[0], second[1], second[2], second[3]};
 }
 
 } // namespace
@@ -54,7 +71,7 @@ public:
         seed_ = seed;
         counter_ = {0, static_cast<std::uint32_t>(pixel.x) | static_cast<std::uint32_t>(pixel.y) << 16,
                     static_cast<std::uint32_t>(sample_index), static_cast<std::uint32_t>(sample_index >> 32)};
-        used_ = 4;
+        used_ = words_.size();
     }
 
     float next_1d() override { return to_unit(next_word()); }
@@ -78,9 +95,9 @@ private:
 
     std::uint32_t next_word()
     {
-        if (used_ == 4) {
-            words_ = philox(counter_, seed_);
-            ++counter_[0];
+        if (used_ == words_.size()) {
+            words_ = philox_pair(counter_, seed_);
+            counter_[0] += 2;
             used_ = 0;
         }
         return words_[used_++];
@@ -89,8 +106,8 @@ private:
     std::uint64_t samples_per_pixel_;
     std::uint64_t seed_ = 0;
     Words counter_{}; // block within the sample, pixel, sample index (low and high word)
-    Words words_{};
-    unsigned used_ = 4;
+    std::array<std::uint32_t, 8> words_{};
+    std::size_t used_ = words_.size();
 };
 
 template std::unique_ptr<Sampler> build<IndependentSampler>(const Params&);

@@ -126,6 +126,7 @@ constexpr Unsupported unsupported_types[] = {
     {"texture", "constanttexture", "use 'constant_color'"},
 };
 
+// Plugins ignore some more by themselves, where they can say what to do instead.
 constexpr IgnoredParameter ignored_parameters[] = {
     {"", "", "name", "", ""},
     {"", "", "id", "", ""},
@@ -133,9 +134,6 @@ constexpr IgnoredParameter ignored_parameters[] = {
     {"bsdf", "phong", "shininess", "exponent", "1"},
     {"bsdf", "phong", "specularCoef", "specular-coefficients", "1 1 1"},
     {"bsdf", "phong", "diffuseCoef", "diffuse-coefficients", "0 0 0"},
-    {"emitter", "environment", "rotate", "rotate", "0"},
-    {"texture", "textmap", "scalex", "scalex", "1"},
-    {"texture", "textmap", "scaley", "scaley", "1"},
     {"integrator", "ao", "sampling", "", ""},
     {"integrator", "direct", "warp", "", ""},
     {"integrator", "direct-mis", "warp", "", ""},

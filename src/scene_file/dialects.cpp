@@ -220,7 +220,7 @@ DialectName decide_name(const Element& scene, const DialectWishes& wishes, std::
         return *wishes.name;
     }
     const Attribute* attribute = scene.attribute("dialect");
-    if (attribute && attribute->value != "auto") {
+    if (attribute && attribute->value != "auto" && !attribute->broken) {
         reason = "the scene file says so";
         if (const auto name = dialect_from_string(attribute->value)) return *name;
         std::vector<std::string_view> known = {"auto"};

@@ -90,8 +90,7 @@ private:
     void reject_children(const Element& element)
     {
         for (const Element& child : element.children)
-            diagnostics_.error(child.place(),
-                               fmt::format("a <{}> cannot contain a <{}>", element.tag, child.tag));
+            diagnostics_.error(child.place(), cannot_contain(element, child));
     }
 
     void define(Element& element)
@@ -117,6 +116,7 @@ private:
         reject_children(element);
         if (!check_attributes(element, {"filename"}, {}, diagnostics_)) return;
         substitute_all(element);
+        if (element.attribute("filename")->broken) return;
         const auto path = (element.file->folder() / element.value("filename")).lexically_normal();
         const auto fail = [&](std::string message) {
             diagnostics_.error(element.value_place(*element.attribute("filename")), std::move(message));
@@ -169,6 +169,7 @@ private:
                 diagnostics_.error(
                     element.part_place(attribute, dollar, 1),
                     "expected a name after '$', as in $name or ${name}; write $$ for the sign itself");
+                attribute.broken = true;
                 return;
             }
             result.append(text, done, dollar - done);
@@ -177,8 +178,10 @@ private:
                 result += '$';
             else if (const std::string* value = find_value(use.name))
                 result += *value;
-            else
+            else {
                 fail_undefined(use.name, element.part_place(attribute, dollar, use.length));
+                attribute.broken = true;
+            }
         }
         if (done == 0) return;
         attribute.value = result.append(text, done);

@@ -23,8 +23,8 @@ std::string with_article(std::string_view noun)
 
 std::vector<std::string_view> all_tags()
 {
-    std::vector<std::string_view> tags = {"scene", "include", "default", "mesh",   "boolean", "integer",
-                                          "float", "string",  "point",   "vector", "color",   "transform"};
+    std::vector<std::string_view> tags = {"include", "default", "mesh",   "boolean", "integer",  "float",
+                                          "string",  "point",   "vector", "color",   "transform"};
     for (const TypeInfo& type : known_types())
         if (std::find(tags.begin(), tags.end(), type.kind) == tags.end()) tags.push_back(type.kind);
     return tags;
@@ -45,10 +45,10 @@ void reject_child(const Element& parent, const Element& child, Diagnostics& diag
         diagnostics.error(child.place(), fmt::format("<{}> is not supported; {}", child.tag, *instead));
     else if (child.tag == "include" || child.tag == "default")
         diagnostics.error(child.place(), fmt::format("<{}> must stand directly inside <scene>", child.tag));
-    else if (known || child.tag == "test")
-        diagnostics.error(child.place(),
-                          fmt::format("{} cannot contain {}", with_article("<" + parent.tag + ">"),
-                                      with_article("<" + child.tag + ">")));
+    else if (is_transform_operation(child.tag))
+        diagnostics.error(child.place(), fmt::format("<{}> must stand inside a <transform>", child.tag));
+    else if (known || child.tag == "scene" || child.tag == "test")
+        diagnostics.error(child.place(), cannot_contain(parent, child));
     else
         diagnostics.error(child.place(),
                           fmt::format("unknown tag <{}>{}", child.tag, way_out(child.tag, tags)));
@@ -164,10 +164,9 @@ void ObjectReader::check_against_manual(std::string_view class_name)
 
 void ObjectReader::finish()
 {
-    const std::vector<std::string>& asked = params_.asked_names();
     for (const auto& [name, at] : given_) {
         const IgnoredParameter* ignored = find_ignored(kind_of(element_), type_, name);
-        if (!ignored || std::find(asked.begin(), asked.end(), name) != asked.end()) continue;
+        if (!ignored || !params_.is_unused(name)) continue;
         std::string used(ignored->instead_default), given;
         for (const Element& child : element_.children) {
             if (child.value("name") == ignored->instead && ignored->instead != name)

@@ -58,7 +58,8 @@ private:
             if (entry.name == type_) return &entry;
             names.push_back(entry.name);
         }
-        if (element_.attribute("type")) fail_unknown_type(names);
+        const Attribute* type = element_.attribute("type");
+        if (type && !type->broken) fail_unknown_type(names);
         return nullptr;
     }
 

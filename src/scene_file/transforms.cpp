@@ -102,6 +102,13 @@ constexpr Operation operations[] = {{"translate", read_translate},
                                     {"lookat", read_lookat},
                                     {"matrix", read_matrix}};
 
+const Operation* find_operation(std::string_view tag)
+{
+    const auto* found = std::find_if(std::begin(operations), std::end(operations),
+                                     [&](const Operation& operation) { return operation.tag == tag; });
+    return found == std::end(operations) ? nullptr : found;
+}
+
 // Whether the matrix and its inverse can be used with 32-bit floats.
 bool is_sane(const Transform& transform)
 {
@@ -116,24 +123,26 @@ bool is_sane(const Transform& transform)
 
 } // namespace
 
+bool is_transform_operation(std::string_view tag)
+{
+    return find_operation(tag) != nullptr;
+}
+
 std::optional<Transform> read_transform(const Element& element, Diagnostics& diagnostics)
 {
     Transform product;
     bool good = true;
     for (const Element& child : element.children) {
-        const auto* operation = std::find_if(std::begin(operations), std::end(operations),
-                                             [&](const Operation& known) { return known.tag == child.tag; });
-        if (operation == std::end(operations)) {
+        const Operation* operation = find_operation(child.tag);
+        if (!operation) {
             std::vector<std::string_view> tags;
             for (const Operation& known : operations) tags.push_back(known.tag);
-            diagnostics.error(child.place(), fmt::format("a <transform> cannot contain a <{}>{}", child.tag,
-                                                         way_out(child.tag, tags)));
+            diagnostics.error(child.place(), cannot_contain(element, child) + way_out(child.tag, tags));
             good = false;
             continue;
         }
         for (const Element& inner : child.children) {
-            diagnostics.error(inner.place(),
-                              fmt::format("a <{}> cannot contain a <{}>", child.tag, inner.tag));
+            diagnostics.error(inner.place(), cannot_contain(child, inner));
             good = false;
         }
         if (const auto step = operation->read(child, diagnostics))

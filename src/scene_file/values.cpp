@@ -62,14 +62,15 @@ public:
 
     std::nullopt_t fail(const Token& token, std::string message) const
     {
-        diagnostics_.error(element_.part_place(attribute_, token.begin, token.text.size()),
-                           std::move(message));
+        if (!attribute_.broken)
+            diagnostics_.error(element_.part_place(attribute_, token.begin, token.text.size()),
+                               std::move(message));
         return std::nullopt;
     }
 
     std::nullopt_t fail(std::string message) const
     {
-        diagnostics_.error(element_.value_place(attribute_), std::move(message));
+        if (!attribute_.broken) diagnostics_.error(element_.value_place(attribute_), std::move(message));
         return std::nullopt;
     }
 
@@ -188,10 +189,20 @@ bool check_attributes(const Element& element, std::initializer_list<std::string_
     for (const std::string_view name : required) {
         if (element.attribute(name)) continue;
         complete = false;
-        diagnostics.error(element.place(),
-                          fmt::format("<{0}> needs an attribute '{1}': <{0} {1}=\"...\"", element.tag, name));
+        diagnostics.error(
+            element.place(),
+            fmt::format("<{0}> needs an attribute '{1}': <{0} {1}=\"...\" .../>", element.tag, name));
     }
     return complete;
+}
+
+std::string cannot_contain(const Element& parent, const Element& child)
+{
+    const auto article = [](const Element& element) {
+        return std::string_view("aeio").find(element.tag[0]) == std::string_view::npos ? "a" : "an";
+    };
+    return fmt::format("{} <{}> cannot contain {} <{}>", article(parent), parent.tag, article(child),
+                       child.tag);
 }
 
 bool is_property_tag(std::string_view tag)
@@ -211,12 +222,11 @@ std::optional<Property> read_property(const Element& element, Diagnostics& diagn
     } else {
         check_attributes(element, {"name", "value"}, {}, diagnostics);
         for (const Element& child : element.children)
-            diagnostics.error(child.place(),
-                              fmt::format("a <{}> cannot contain a <{}>", element.tag, child.tag));
+            diagnostics.error(child.place(), cannot_contain(element, child));
         if (const Attribute* attribute = element.attribute("value")) {
             property.text = attribute->value;
             property.value_at = element.value_place(*attribute);
-            value = read_value(element, *attribute, diagnostics);
+            if (!attribute->broken) value = read_value(element, *attribute, diagnostics);
         }
     }
     const Attribute* name = element.attribute("name");

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The syntax of values. Every function reads one attribute's value; what is wrong goes to `diagnostics`, and nothing
-// is returned.
+// The syntax of values. Every function reads one attribute's value. What is wrong goes to `diagnostics`, unless the
+// value is known to be broken, and nothing is returned.
 
 #include "plumb/params.h"
 #include "scene_file/document.h"
@@ -27,11 +27,15 @@ std::optional<std::int64_t> read_integer(const Element& element, const Attribute
 bool check_attributes(const Element& element, std::initializer_list<std::string_view> required,
                       std::initializer_list<std::string_view> optional, Diagnostics& diagnostics);
 
+// "a <mesh> cannot contain an <integrator>".
+std::string cannot_contain(const Element& parent, const Element& child);
+
 bool is_property_tag(std::string_view tag);
 // The parameter that a property element (boolean, integer, float, string, point, vector, color, transform) gives;
 // nothing where it has no name.
 std::optional<Property> read_property(const Element& element, Diagnostics& diagnostics);
 
+bool is_transform_operation(std::string_view tag);
 // The product of a <transform>'s operations; the first one is applied first.
 std::optional<Transform> read_transform(const Element& element, Diagnostics& diagnostics);
 

@@ -52,11 +52,10 @@ TEST_CASE("a wrong scene exits with 1, says where, and writes nothing", "[cli][e
     folder.write("bad.xml",
                  small_scene(R"(<integrator type="path_mis"><float name="rrDeph" value="3"/></integrator>)"));
     const std::string error = complaint({"bad.xml", "-o", "bad.exr", "-o", "bad.png", "--json", "bad.json"});
-    CHECK_THAT(error,
-               ContainsSubstring("bad.xml:2:47: error: unknown parameter 'rrDeph' for integrator 'path_mis'; "
-                                 "did you mean 'rrDepth'?\n"));
-    CHECK_THAT(error, ContainsSubstring("<float name=\"rrDeph\""));
-    CHECK_THAT(error, ContainsSubstring("^~~~~~\n"));
+    CHECK(error == "bad.xml:2:44: error: unknown parameter 'rrDeph' for integrator 'path_mis'; did you mean "
+                   "'rrDepth'?\n"
+                   "  <integrator type=\"path_mis\"><float name=\"rrDeph\" value=\"3\"/></integrator>\n"
+                   "                                           ^~~~~~\n");
     CHECK(folder.run({"bad.xml", "--lenient", "-o", "lenient.exr"}).exit_code == 0);
 }
 

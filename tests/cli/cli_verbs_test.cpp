@@ -56,6 +56,32 @@ TEST_CASE("--quiet prints nothing, --verbose more", "[cli][log]")
         CHECK_THAT(verbose.err, ContainsSubstring(fact));
 }
 
+TEST_CASE("samples that were left out are counted, and can be replayed", "[cli][log]")
+{
+    // A lamp that fills the view and is brighter than the film's range, 2^37 = 1.4e11.
+    const SceneFolder folder;
+    folder.write("too bright.xml", R"(<scene dialect="plumb"><integrator type="path_nee"/>
+        <camera type="perspective"><integer name="width" value="3"/><integer name="height" value="2"/></camera>
+        <shape type="rectangle"><point name="center" value="0,0,5"/><vector name="normal" value="0,0,-1"/>
+            <float name="width" value="100"/><float name="height" value="100"/>
+            <emitter type="area"><color name="radiance" value="1e12,1,1"/></emitter></shape></scene>)");
+    const RunResult result =
+        folder.run({"too bright.xml", "-o", "a.exr", "--spp", "4", "--crop", "1,0,2,2", "--json", "-"});
+    CHECK(result.exit_code == 0);
+    const std::string first = "sample 0 of pixel 1,0 (out of the film's range: 1e+12 1 1)";
+    const std::string words = " replay 'too bright.xml' --pixel 1,0 --sample 0 --spp 4";
+    CHECK_THAT(result.err, ContainsSubstring("warning: 16 samples were left out, the first is " + first +
+                                             "; to see its path:\n    renderer" + words + "\n"));
+    CHECK_THAT(result.out, ContainsSubstring("\"count\": 16,"));
+    CHECK_THAT(result.out, ContainsSubstring("\"why\": \"out of the film's range\""));
+    const RunResult info = folder.run({"info", "a.exr"});
+    CHECK_THAT(info.out, ContainsSubstring(first));
+
+    const RunResult replay = run_program({"/bin/sh", "-c", "\"$0\"" + words, PLUMB_RENDERER}, folder.path());
+    CHECK(replay.exit_code == 0);
+    CHECK_THAT(replay.out, ContainsSubstring("\nverdict   out of the film's range\n"));
+}
+
 TEST_CASE("types lists every plugin and prints manuals", "[cli][types]")
 {
     const SceneFolder folder;

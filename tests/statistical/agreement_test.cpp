@@ -130,7 +130,7 @@ TEST_CASE("all path tracers agree within a fraction of a percent", "[statistical
 {
     const std::vector<Setting> all = settings();
     for (const Setting& setting : all)
-        for (const bool absorb : {false, true}) check_agreement(setting, absorb, 200000, 18 * all.size());
+        for (const bool absorb : {false, true}) check_agreement(setting, absorb, 50000, 18 * all.size());
 }
 
 TEST_CASE("explicit solid-angle sampling agrees with the other measures", "[statistical][agreement]")

@@ -7,6 +7,11 @@
 #include "support/catch.h"
 #include "support/statistics.h"
 
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
 using namespace plumb;
 using namespace plumb::test;
 
@@ -54,10 +59,10 @@ std::vector<SphericalWarp> spherical_warps()
 void check_spherical_warps(std::uint64_t samples)
 {
     const auto warps = spherical_warps();
-    for (const auto& [name, warp, density, grid] : warps) {
-        check_distribution(
-            name, grid, [&](TestRandom& random) { return warp(random.next_2d()); }, density, samples,
-            sidak_level(significance, warps.size()));
+    for (const SphericalWarp& one : warps) {
+        const auto sample = [&](TestRandom& random) { return one.warp(random.next_2d()); };
+        check_distribution(one.name, one.grid, sample, one.density, samples,
+                           sidak_level(significance, warps.size()));
     }
 }
 

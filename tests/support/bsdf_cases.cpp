@@ -37,7 +37,7 @@ std::vector<BsdfCase> make_cases()
         {bsdf("roughsubstrate"), 0.1},
         {bsdf("roughsubstrate").number("alpha", 0.6).color("kd", Color(1.f, 0.2f, 0.f)), 0.6},
         {bsdf("roughsubstrate").number("alpha", 0.02).color("kd", Color(0.f)), 0.02},
-        {glass("roughsubstrate", 1.0, 1.5).number("alpha", 0.3).color("kd", Color(0.5f)), 0.3},
+        {glass("roughsubstrate", 1.0, 1.5).number("alpha", 0.3).color("kd", Color(0.5f)), 0.3, true},
         {glass("roughsubstrate", 1.5, 1.5).color("kd", Color(0.5f)), 1},
         {bsdf("roughdielectric"), 0.1},
         {bsdf("roughdielectric").number("alpha", 0.02), 0.02},
@@ -90,26 +90,25 @@ Vec3f direction_at(double degrees, double azimuth)
         Vec3d(std::sin(theta) * std::cos(azimuth), std::sin(theta) * std::sin(azimuth), std::cos(theta)));
 }
 
-std::vector<SphereGrid> lobe_grids(const BsdfCase& test, const Bsdf& bsdf, const Vec3f& wi)
+std::vector<LobeGrid> lobe_grids(const BsdfCase& test, const Bsdf& bsdf, const Vec3f& wi)
 {
-    std::vector<SphereGrid> grids = {SphereGrid{}};
-    if (test.narrowness >= 0.3) return grids;
+    if (test.narrowness >= 0.3) return {LobeGrid{}};
 
     // Half of the cells go to angles below twice the roughness, about the mirror direction and, for BSDFs that
     // transmit, about the mean of the transmitted samples.
     const double concentration = std::max(1.0, 2.0 * std::log2(1.0 / test.narrowness));
-    grids = {SphereGrid{Vec3f(-wi.x, -wi.y, wi.z), concentration, 20, 20}};
-    if (bsdf.lobes().has_any(Lobe::glossy_transmission)) {
-        Vec3d mean(0.0);
-        TestRandom random(17);
-        for (int i = 0; i < 4000; ++i) {
-            const float u_lobe = random.next_1d();
-            const auto sample = bsdf.sample({}, wi, u_lobe, random.next_2d());
-            if (sample && sample->is_transmission()) mean += Vec3d(sample->wo);
-        }
-        if (length(mean) > 0.0) grids.push_back({Vec3f(normalize(mean)), concentration, 20, 20});
+    const SphereGrid mirrored{Vec3f(-wi.x, -wi.y, wi.z), concentration, 20, 20};
+    if (!bsdf.lobes().has_any(Lobe::glossy_transmission)) return {{mirrored, true, true}};
+    Vec3d mean(0.0);
+    TestRandom random(17);
+    for (int i = 0; i < 4000; ++i) {
+        const float u_lobe = random.next_1d();
+        const auto sample = bsdf.sample({}, wi, u_lobe, random.next_2d());
+        if (sample && sample->is_transmission()) mean += Vec3d(sample->wo);
     }
-    return grids;
+    if (length(mean) == 0.0) mean = -Vec3d(wi);
+    const SphereGrid refracted{Vec3f(normalize(mean)), concentration, 20, 20};
+    return {{mirrored, wi.z > 0.f, wi.z < 0.f}, {refracted, wi.z<0.f, wi.z> 0.f}};
 }
 
 } // namespace plumb::test

@@ -11,7 +11,8 @@ namespace plumb::test {
 
 struct BsdfCase {
     ParamsBuilder params;
-    double narrowness = 1.0; // roughness of its narrowest lobe: cells of grids follow it
+    double narrowness = 1.0;   // roughness of its narrowest lobe: cells of grids follow it
+    bool gains_energy = false; // its formula reflects more than it receives
 
     std::string name() const; // the type and its parameters
     std::unique_ptr<Bsdf> build() const;
@@ -23,7 +24,16 @@ const std::vector<BsdfCase>& bsdf_cases();
 // A direction at `degrees` from the normal (above 90: behind the surface).
 Vec3f direction_at(double degrees, double azimuth = 0.7);
 
+// A grid, and which sides of the surface it looks at.
+struct LobeGrid {
+    SphereGrid grid;
+    bool front = true;
+    bool back = true;
+
+    bool covers(const Vec3f& wo) const { return wo.z > 0.f ? front : back; }
+};
+
 // Grids whose cells are fine about the directions where a case may have a narrow lobe, seen from wi.
-std::vector<SphereGrid> lobe_grids(const BsdfCase& test, const Bsdf& bsdf, const Vec3f& wi);
+std::vector<LobeGrid> lobe_grids(const BsdfCase& test, const Bsdf& bsdf, const Vec3f& wi);
 
 } // namespace plumb::test

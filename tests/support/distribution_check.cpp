@@ -23,7 +23,8 @@ constexpr double weights[points] = {0.236926885056189087514264040720, 0.47862867
                                     0.568888888888888888888888888889, 0.478628670499366468041291514836,
                                     0.236926885056189087514264040720};
 
-// What the sum of all cells may be off by.
+// What a cell, and the sum of all cells, may be off by.
+constexpr double cell_error = 1e-6;
 constexpr double quadrature_error = 2e-5;
 
 double gauss(const PlaneDensity& density, double x0, double x1, double y0, double y1)
@@ -108,6 +109,12 @@ Observed observe(const Grid& grid, const PlaneSampler& sample, std::uint64_t sam
     return observed;
 }
 
+// Whether a Poisson variable of this mean is hardly ever so large.
+bool too_many(double count, double mean)
+{
+    return count > 0.0 && regularised_gamma_p(count, mean) < 1e-9;
+}
+
 Outcome chi2_outcome(const std::vector<double>& chances, const Observed& observed, std::uint64_t samples)
 {
     if (observed.off_grid > 0) return {0.0, fmt::format("{} samples off the grid", observed.off_grid)};
@@ -129,10 +136,12 @@ Outcome chi2_outcome(const std::vector<double>& chances, const Observed& observe
         const double expected = chances[i] * n;
         const auto count = static_cast<double>(observed.counts[i]);
         if (refused && std::max(chances[i], count / n) < quadrature_error) continue;
-        if (expected <= 0.0 && count > 0.0) {
-            return {0.0, fmt::format("{} samples {}", count,
-                                     refused ? "refused where the density integrates to 1"
-                                             : "where the density is 0")};
+        if (chances[i] < cell_error) { // the quadrature may not have seen a sliver of density in this cell
+            if (too_many(count, expected + cell_error * n))
+                return {0.0, fmt::format("{} samples {}", count,
+                                         refused ? "refused where the density integrates to 1"
+                                                 : "where the density is 0")};
+            continue;
         }
         if (expected >= 5.0) {
             add(count, expected);
@@ -143,8 +152,7 @@ Outcome chi2_outcome(const std::vector<double>& chances, const Observed& observe
     }
     if (pooled_expected >= 5.0) {
         add(pooled_count, pooled_expected);
-    } else if (pooled_count > 0.0 && regularised_gamma_p(pooled_count, pooled_expected) < 1e-9) {
-        // The chance that a Poisson variable of this mean is at least as large.
+    } else if (too_many(pooled_count, pooled_expected)) {
         return {0.0, fmt::format("{} samples where {} are expected", pooled_count, pooled_expected)};
     }
 
@@ -157,10 +165,14 @@ class SphereMap {
 public:
     explicit SphereMap(const SphereGrid& grid) : n_(Imath::V3d(grid.axis)), concentration_(grid.concentration)
     {
+        // Of the cells about the axis, some have the surface's horizon in their middle: along their border it would
+        // cut off slivers that quadrature does not see.
         n_ = normalize(n_);
-        const Vec3d other = std::abs(n_.x) < 0.5 ? Vec3d(1, 0, 0) : Vec3d(0, 1, 0);
-        t_ = normalize(cross(n_, other));
-        s_ = cross(t_, n_);
+        const Vec3d t = normalize(cross(n_, std::abs(n_.z) < 0.99 ? Vec3d(0, 0, 1) : Vec3d(0, 1, 0)));
+        const Vec3d s = cross(t, n_);
+        const double half_cell = pi_d / grid.phi_cells;
+        s_ = s * std::cos(half_cell) + t * std::sin(half_cell);
+        t_ = cross(n_, s_);
     }
 
     Imath::V2d place(const Vec3f& direction) const

@@ -125,6 +125,8 @@ double normal_survival(double z)
 
 double student_t_two_sided(double t, double degrees_of_freedom)
 {
+    // The logarithms of the gamma functions below would cancel.
+    if (degrees_of_freedom > 1e7) return 2.0 * normal_survival(std::abs(t));
     return regularised_beta(degrees_of_freedom / 2.0, 0.5, degrees_of_freedom / (degrees_of_freedom + t * t));
 }
 

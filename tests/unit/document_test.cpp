@@ -60,14 +60,14 @@ TEST_CASE("every name and value has its place", "[unit][document]")
     CHECK_FALSE(x.verbatim);
     CHECK(a.name_place(x).column == 6);
     CHECK(a.value_place(x).column == 9);
-    CHECK(a.value_place(x).length == 12);
+    CHECK(a.value_place(x).length == 13);
 
     const Attribute& yy = a.attributes[1];
     CHECK(yy.name == "yy");
-    CHECK(a.name_place(yy).column == 24);
+    CHECK(a.name_place(yy).column == 25);
     CHECK(a.name_place(yy).length == 2);
     CHECK(a.value_place(yy).line == 4);
-    CHECK(a.value_place(yy).column == 30);
+    CHECK(a.value_place(yy).column == 31);
     CHECK(yy.value.front() == 'b');
     CHECK(yy.value.back() == 'c');
     CHECK(yy.value.find_first_of("\r\n\t") == std::string::npos); // blanks of all kinds arrive as spaces
@@ -75,7 +75,7 @@ TEST_CASE("every name and value has its place", "[unit][document]")
     const Attribute& e = a.attributes[2];
     CHECK(e.value.empty());
     CHECK(a.value_place(e).line == 5);
-    CHECK(a.value_place(e).column == 7);
+    CHECK(a.value_place(e).column == 8);
     CHECK(text.substr(e.value_offset - 1, 2) == "''");
 }
 
@@ -196,7 +196,7 @@ TEST_CASE("damaged files", "[unit][document]")
 
 TEST_CASE("files that cannot be read", "[unit][document]")
 {
-    const test::TempFolder folder;
+    const TempFolder folder;
     CHECK_THROWS_WITH(read_text(folder.path() / "none.xml"), ContainsSubstring("there is no file '"));
     CHECK_THROWS_WITH(read_text(folder.path()), ContainsSubstring("is a folder, not a scene file"));
     std::ofstream(folder.path() / "a.xml", std::ios::binary) << "a\r\n\0";

@@ -6,6 +6,8 @@
 #include "support/temp_folder.h"
 
 #include <chrono>
+#include <csignal>
+#include <sys/resource.h>
 #include <thread>
 
 using namespace plumb;
@@ -237,17 +239,53 @@ TEST_CASE("a path that cannot be written is found out", "[unit][image]")
 TEST_CASE("writing that fails keeps the file that was there", "[unit][image]")
 {
     const TempFolder folder;
-    folder.write("a.jpg", "precious");
-    // More channels than JPEG can hold.
+    folder.write("a.png", "precious");
+    // More channels than PNG can hold.
     const Image image({0, 0, 2, 2}, 2, 2, {"A1", "A2", "A3", "A4", "A5", "A6", "A7"});
+    std::string message;
     try {
-        write_image(folder / "a.jpg", image);
+        write_image(folder / "a.png", image);
     } catch (const Error& error) {
-        CHECK_THAT(error.what(), ContainsSubstring("cannot write '" + (folder / "a.jpg").string() + "': "));
-        CHECK(std::string(error.what()).find('\n') == std::string::npos);
-        CHECK(read_bytes(folder / "a.jpg") == "precious");
+        message = error.what();
     }
-    CHECK(folder.files() == std::vector<std::string>{"a.jpg"});
+    CHECK_THAT(message, ContainsSubstring("cannot write '" + (folder / "a.png").string() + "': "));
+    CHECK(message.find('\n') == std::string::npos);
+    CHECK(read_bytes(folder / "a.png") == "precious");
+    CHECK(folder.files() == std::vector<std::string>{"a.png"});
+}
+
+TEST_CASE("a disk that is full is an error, and nothing is left of the file", "[unit][image]")
+{
+    // Files of more than 100 bytes fail as on a full disk, by another name.
+    struct SmallFiles {
+        rlimit before{};
+        void (*handler)(int);
+        SmallFiles() : handler(std::signal(SIGXFSZ, SIG_IGN))
+        {
+            getrlimit(RLIMIT_FSIZE, &before);
+            const rlimit small{100, before.rlim_max};
+            setrlimit(RLIMIT_FSIZE, &small);
+        }
+        ~SmallFiles()
+        {
+            setrlimit(RLIMIT_FSIZE, &before);
+            std::signal(SIGXFSZ, handler);
+        }
+    };
+    const std::string extension = GENERATE(as<std::string>{}, ".exr", ".png", ".jpg", ".tif", ".hdr");
+    const TempFolder folder;
+    const Image image = numbered({0, 0, 64, 64}, 64, 64);
+    std::string message;
+    {
+        const SmallFiles small;
+        try {
+            write_image(folder / ("a" + extension), image);
+        } catch (const Error& error) {
+            message = error.what();
+        }
+    }
+    CHECK(message == "cannot write '" + (folder / ("a" + extension)).string() + "': File too large");
+    CHECK(folder.files().empty());
 }
 
 TEST_CASE("broken pictures are errors on one line that name the file", "[unit][image]")

@@ -266,7 +266,7 @@ TEST_CASE("messages about a parameter", "[unit][params]")
 
 TEST_CASE("files are found beside the scene file", "[unit][params]")
 {
-    const test::TempFolder folder;
+    const TempFolder folder;
     std::filesystem::create_directory(folder.path() / "sub");
     std::ofstream(folder.path() / "mesh.obj") << "v 0 0 0\n";
     Diagnostics diagnostics;

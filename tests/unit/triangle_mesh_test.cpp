@@ -192,7 +192,9 @@ TEST_CASE("points on a mesh are uniform over its area", "[unit][shape]")
 TEST_CASE("a mesh without area, out of range or missing is an error", "[unit][shape]")
 {
     Meshes meshes;
-    CHECK_THROWS_WITH(meshes.read("v 0 0 0\nv 1 0 0\nf 1 2 2\n"), ContainsSubstring("area of 0"));
+    CHECK_THROWS_WITH(meshes.read("v 0 0 0\nv 1 0 0\nf 1 2 2\n"), ContainsSubstring("area"));
+    const Transform tiny = *Transform::scale(Vec3d(1e-30));
+    CHECK_THROWS_WITH(meshes.read(one_triangle, tiny), ContainsSubstring("area of 0"));
     const auto huge = meshes.params(one_triangle).transform("toWorld", *Transform::scale(Vec3d(1e39)));
     CHECK_THAT((huge.complaints<TriangleMesh, Shape>().at(0)),
                ContainsSubstring("further away than a float can tell"));

@@ -1,0 +1,342 @@
+// SPDX-License-Identifier: MIT
+#include "core/memory.h"
+#include "plumb/scene_file.h"
+#include "plumb/surface.h"
+#include "support/catch.h"
+#include "support/scene_text.h"
+
+using namespace plumb;
+using test::load_text;
+
+namespace {
+
+const std::string camera = "<camera type='perspective'><integer name='width' value='8'/>"
+                           "<integer name='height' value='6'/></camera>";
+const std::string start = "<scene dialect='plumb'><integrator type='normals'/>" + camera;
+
+std::string messages(const std::vector<Diagnostic>& diagnostics)
+{
+    std::string text;
+    for (const Diagnostic& diagnostic : diagnostics) text += diagnostic.text() + "\n";
+    return text;
+}
+
+std::string errors(const std::string& xml, const LoadOptions& options = {})
+{
+    try {
+        load_text(xml, options);
+        return {};
+    } catch (const SceneError& error) {
+        return error.what();
+    }
+}
+
+Color albedo(const SceneObject& object)
+{
+    SurfacePoint at;
+    const Vec3f up(0.f, 0.f, 1.f);
+    return object.bsdf->evaluate(at, up, up).f_cos * pi;
+}
+
+} // namespace
+
+TEST_CASE("the smallest scene, and its defaults", "[unit][loader]")
+{
+    const LoadedScene loaded = load_text("<scene><integrator type='normals'/><camera type='perspective'/>"
+                                         "<mesh type='sphere'/></scene>");
+    CHECK(loaded.job.camera->resolution() == Vec2i(1280, 720));
+    CHECK(loaded.job.sampler->samples_per_pixel() == 1);
+    CHECK(loaded.sampler == "independent");
+    CHECK(loaded.integrator == "normals");
+    CHECK(loaded.job.filter->radius() == 2.f);
+    REQUIRE(loaded.job.scene.objects().size() == 1);
+    CHECK(albedo(loaded.job.scene.objects()[0]).g == Approx(0.5f));
+    CHECK(loaded.job.scene.objects()[0].name == "mesh 'sphere' (scene.xml:1)");
+    CHECK(loaded.job.scene.emitters().empty());
+    CHECK(loaded.parse_seconds > 0.0);
+    CHECK(loaded.build_seconds > 0.0);
+}
+
+TEST_CASE("the order of children does not matter", "[unit][loader]")
+{
+    const LoadedScene loaded =
+        load_text("<scene dialect='plumb'><shape type='sphere'><emitter type='area'><color name='radiance' "
+                  "value='1 2 3'/></emitter>"
+                  "<bsdf type='diffuse'><color name='albedo' value='.1 .2 .3'/></bsdf><float name='radius' "
+                  "value='2'/></shape>"
+                  "<emitter type='point'><color name='radiance' value='1 1 1'/></emitter>"
+                  "<sampler type='independent'><integer name='sampleCount' value='+7'/></sampler>"
+                  "<camera type='perspective'><rfilter type='box'/><integer name='width' value='3'/></camera>"
+                  "<integrator type='path_mis'/></scene>");
+    const SceneObject& object = loaded.job.scene.objects().at(0);
+    CHECK(object.shape->bounds().max.x == Approx(2.f));
+    CHECK(albedo(object).b == Approx(0.3f));
+    CHECK(object.emitter != nullptr);
+    CHECK(loaded.job.scene.emitters().size() == 2);
+    CHECK(loaded.job.sampler->samples_per_pixel() == 7);
+    CHECK(loaded.job.filter->radius() == Approx(0.5f));
+    CHECK(loaded.job.camera->resolution() == Vec2i(3, 720));
+    CHECK(loaded.integrator == "path_mis");
+    CHECK(loaded.warnings.empty());
+}
+
+TEST_CASE("every form that the courses write is understood", "[unit][loader]")
+{
+    const std::string body = GENERATE(
+        // EPFL
+        "<integrator type='simple'><point name='position' value='0,1,0'/><color name='energy' value='1 1 "
+        "1'/></integrator>",
+        "<integrator type='whitted'/><mesh type='sphere'><bsdf type='microfacet'><float name='alpha' "
+        "value='.2'/>"
+        "<color name='kd' value='0.1 0.2 0.3'/></bsdf></mesh>",
+        // ETH
+        "<integrator type='direct'/><emitter type='point' name='p'><point name='position' value='0 0 2'/>"
+        "<color name='power' value='1 1 1'/></emitter><mesh type='sphere'><bsdf type='diffuse'>"
+        "<texture type='checkerboard_color' name='albedo'><vector name='scale' value='0.1,0.2'/>"
+        "<point name='delta' value='0 0'/><color name='value1' value='.1 .1 .1'/><color name='value2' "
+        "value='.2 .2 .2'/>"
+        "</texture></bsdf></mesh>",
+        "<integrator type='av'><float name='length' value='10'/></integrator>",
+        // Zaragoza
+        "<integrator type='path_nee'/><emitter type='environment'><color name='radiance' value='1 1 "
+        "1'/></emitter>",
+        "<integrator type='direct_whitted'/><emitter type='pointlight'><point name='position' value='0 5 0'/>"
+        "<color name='radiance' value='1 1 1'/></emitter><mesh type='sphere'><bsdf type='roughsubstrate'>"
+        "<texture type='checker' name='kd'><integer name='scalex' value='4'/></texture></bsdf></mesh>",
+        "<integrator type='path'/><mesh type='sphere'><bsdf type='roughconductor'><color name='R0' value='1 "
+        ".5 .5'/>"
+        "</bsdf><emitter type='area'><color name='radiance' value='1 1 1'/><float name='scale' "
+        "value='2'/></emitter></mesh>",
+        // McGill
+        "<integrator type='path'><boolean name='isExplicit' value='TRUE'/><string name='termination' "
+        "value='russian-roulette'/><float name='termination-param' value='0.2'/><string "
+        "name='direct-measure' "
+        "value='solid-angle'/><string name='indirect-measure' value='hemisphere'/><string name='direct-warp' "
+        "value='none'/>"
+        "<string name='indirect-warp' value='cosine-hemisphere'/></integrator><shape type='sphere'>"
+        "<string name='name' value='light'/><emitter type='area'><color name='radiance' value='1 1 "
+        "1'/></emitter></shape>",
+        "<integrator type='ao'><integer name='nSamples' value='2'/><string name='sampling' "
+        "value='cosine'/></integrator>",
+        "<integrator type='direct'><integer name='nSamples' value='1'/><string name='measure' value='area'/>"
+        "<string name='warp' value='cosine'/></integrator><shape type='rectangle'><emitter type='area'>"
+        "<color name='radiance' value='1 1 1'/></emitter></shape><emitter type='directional'>"
+        "<vector name='direction' value='0 1 0'/><color name='radiance' value='1 1 1'/></emitter>",
+        // Cameras with a lens
+        "<integrator type='depth'/>");
+    const std::string lens = GENERATE("<camera type='perspective'/>",
+                                      "<camera type='thinlens'><float name='lensRadius' value='.1'/>"
+                                      "<float name='focalLength' value='3'/></camera>");
+    const LoadedScene loaded =
+        load_text("<?xml version='1.0'?>\r\n<!-- c -->\r\n<scene>" + body + lens + "</scene>\r\n");
+    for (const Diagnostic& warning : loaded.warnings)
+        CHECK_THAT(warning.text(), !ContainsSubstring("unknown"));
+}
+
+TEST_CASE("what the command line changes", "[unit][loader]")
+{
+    const std::string xml =
+        start + "<default name='r' value='2'/><sampler type='independent'><integer name='sampleCount' "
+                "value='5'/></sampler><shape type='sphere'><float name='radius' value='$r'/></shape>"
+                "</scene>";
+    LoadOptions options;
+    CHECK(load_text(xml).job.sampler->samples_per_pixel() == 5);
+    options.samples_per_pixel = 9;
+    options.resolution = Vec2i(30, 20);
+    options.integrator = "path_mis";
+    options.definitions["r"] = "3";
+    options.dialect = DialectName::eth;
+    options.emitters_absorb = true;
+    LoadedScene loaded = load_text(xml, options);
+    CHECK(loaded.job.sampler->samples_per_pixel() == 9);
+    CHECK(loaded.job.camera->resolution() == Vec2i(30, 20));
+    CHECK(loaded.integrator == "path_mis");
+    CHECK(loaded.job.scene.objects()[0].shape->bounds().max.x == Approx(3.f));
+    CHECK(loaded.dialect.name == DialectName::eth);
+    CHECK(loaded.dialect.mirrored_view);
+    CHECK(loaded.job.scene.emitters_absorb());
+
+    options.samples_per_pixel.reset();
+    options.sampler = "independent"; // takes as many samples as the file's
+    loaded = load_text(xml, options);
+    CHECK(loaded.job.sampler->samples_per_pixel() == 5);
+}
+
+TEST_CASE("a scene can be rendered with another integrator than the unsupported one it asks for",
+          "[unit][loader]")
+{
+    const std::string xml =
+        "<scene><integrator type='photonmapper'><integer name='photonCount' value='1'/></integrator>" +
+        camera + "</scene>";
+    LoadOptions options;
+    options.integrator = "path_mis";
+    CHECK(load_text(xml, options).integrator == "path_mis");
+    CHECK(load_text("<scene>" + camera + "</scene>", options).integrator == "path_mis");
+}
+
+TEST_CASE("mistakes on the command line have no place in a file", "[unit][loader]")
+{
+    const std::string xml = start + "</scene>";
+    LoadOptions options;
+    options.integrator = "path_miss";
+    options.sampler = "sobol";
+    options.samples_per_pixel = 0;
+    options.resolution = Vec2i(0, 70000);
+    options.definitions["x"] = "1";
+    const std::string text = errors(xml, options);
+    CHECK_THAT(
+        text,
+        ContainsSubstring("error: --integrator path_miss: unknown integrator 'path_miss'; did you mean") &&
+            ContainsSubstring("error: --sampler sobol: unknown sampler 'sobol'; known is independent") &&
+            ContainsSubstring("error: width must be in [1, 65535], not 0") &&
+            ContainsSubstring("error: height must be in [1, 65535], not 70000") &&
+            ContainsSubstring("error: -D x=1: no file of this scene uses $x"));
+    CHECK_THAT(text, !ContainsSubstring("scene.xml"));
+    options.sampler.reset();
+    CHECK_THAT(errors(xml, options), ContainsSubstring("error: sampleCount must be in [1, 67108864], not 0"));
+}
+
+TEST_CASE("unknown parameters are warnings if asked for", "[unit][loader]")
+{
+    const std::string xml =
+        start + "<integer name='spp' value='1'/><shape type='sphere'><float name='raduis' value='2'/>"
+                "</shape></scene>";
+    CHECK_THAT(errors(xml), ContainsSubstring("error: unknown parameter 'raduis'"));
+    LoadOptions options;
+    options.lenient = true;
+    const LoadedScene loaded = load_text(xml, options);
+    CHECK_THAT(messages(loaded.warnings), ContainsSubstring("warning: unknown parameter 'raduis'") &&
+                                              ContainsSubstring("warning: unknown parameter 'spp'"));
+    // Other errors stay errors.
+    CHECK_THAT(
+        errors(start + "<shape type='sphere'><float name='radius' value='x'/></shape></scene>", options),
+        ContainsSubstring("error: 'x' is not a number"));
+}
+
+TEST_CASE("what nobody reads is ignored; with a warning if the picture could be meant to differ",
+          "[unit][loader]")
+{
+    const LoadedScene silent = load_text(
+        start +
+        "<string name='accelerator' value='bvh'/><shape type='sphere' name='a' id='b'><string name='name' "
+        "value='ball'/><bsdf type='mirror' name='c'/></shape></scene>");
+    CHECK(silent.warnings.empty());
+    const LoadedScene phong = load_text(
+        start +
+        "<shape type='sphere'><bsdf type='phong'><float name='shininess' value='20'/>"
+        "<float name='diffuseCoef' value='0.5'/><integer name='exponent' value='3'/></bsdf></shape></scene>");
+    CHECK(phong.warnings.size() == 2);
+    CHECK_THAT(messages(phong.warnings),
+               ContainsSubstring(
+                   "'shininess' is not read, neither here nor in the course's own code: exponent is 3") &&
+                   ContainsSubstring("diffuse-coefficients is 0 0 0"));
+    const LoadedScene map =
+        load_text(start + "<emitter type='environment'><float name='rotate' value='90'/></emitter></scene>");
+    CHECK(map.warnings.size() == 1);
+    CHECK_THAT(messages(map.warnings), ContainsSubstring("'rotate'"));
+}
+
+TEST_CASE("paths are relative to the file that they stand in", "[unit][loader]")
+{
+    const TempFolder folder;
+    folder.write("meshes/t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    folder.write("parts/mesh.xml",
+                 "<scene><mesh type='obj'><string name='filename' value='../meshes/t.obj'/></mesh></scene>");
+    const auto path = folder.write("main.xml", start + "<include filename='parts/mesh.xml'/></scene>");
+    const LoadedScene loaded = load_scene(path);
+    CHECK(loaded.job.scene.triangle_count() == 1);
+    CHECK(loaded.job.scene.objects()[0].name == "mesh 'obj' (mesh.xml:1)");
+}
+
+TEST_CASE("the hash of a scene is that of everything it reads", "[unit][loader]")
+{
+    const auto hash = [](const std::string& mesh, const std::string& part, const LoadOptions& options = {}) {
+        const TempFolder folder; // each time another one
+        folder.write("t.obj", mesh);
+        folder.write("part.xml", part);
+        const auto path =
+            folder.write("main.xml", start + "<default name='x' value='1'/><include filename='part.xml'/>"
+                                             "<mesh type='obj'><string name='filename' value='t.obj'/></mesh>"
+                                             "</scene>");
+        return load_scene(path, options).input_hash;
+    };
+    const std::string mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    const std::string first = hash(mesh, "<scene/>");
+    CHECK(first.size() == 32);
+    CHECK(first == hash(mesh, "<scene/>"));
+    CHECK(first != hash(mesh + "\n", "<scene/>"));
+    CHECK(first != hash(mesh, "<scene />"));
+    LoadOptions options;
+    options.samples_per_pixel = 3; // more of the same
+    options.instruction_set = "sse2";
+    CHECK(first == hash(mesh, "<scene/>", options));
+    options.definitions["x"] = "2";
+    CHECK(first != hash(mesh, "<scene/>", options));
+    options.definitions.clear();
+    options.integrator = "path_mis";
+    CHECK(first != hash(mesh, "<scene/>", options));
+    options.integrator.reset();
+    options.mirrored_view = true;
+    CHECK(first != hash(mesh, "<scene/>", options));
+}
+
+TEST_CASE("all errors of all files come at once, in order", "[unit][loader]")
+{
+    const TempFolder folder;
+    folder.write("part.xml",
+                 "<scene>\n<shape type='sphere'><float name='radius' value='x'/></shape></scene>");
+    folder.write("bad.obj", "v 0 0 0\nf 1 1 9\n");
+    const auto path =
+        folder.write("main.xml", "<scene>\n<shape type='ball'/>\n<include filename='part.xml'/>\n"
+                                 "<mesh type='obj'><string name='filename' value='bad.obj'/></mesh>\n"
+                                 "<integrator type='nothing'/>\n</scene>\n");
+    try {
+        load_scene(path);
+        FAIL("no error");
+    } catch (const SceneError& error) {
+        std::string places;
+        for (const Diagnostic& found : error.diagnostics())
+            places += std::filesystem::path(found.location.file).filename().string() + ":" +
+                      std::to_string(found.location.line) + " ";
+        CHECK(places == "main.xml:1 main.xml:2 bad.obj:2 main.xml:4 main.xml:5 part.xml:2 ");
+    }
+}
+
+TEST_CASE("a picture must fit into memory", "[unit][loader]")
+{
+    const std::string xml =
+        "<scene dialect='plumb'><integrator type='normals'/><camera type='perspective'>"
+        "<integer name='width' value='65535'/><integer name='height' value='65535'/></camera></scene>";
+    const auto available = available_memory();
+    REQUIRE(available);
+    if (*available > 370'000'000'000) return; // it does
+    CHECK_THAT(errors(xml),
+               ContainsSubstring("scene.xml:1:108: error: a picture of 65535 x 65535 pixels needs") &&
+                   ContainsSubstring("lower width and height"));
+    LoadOptions options;
+    options.kept_pixels = 100; // of a crop
+    CHECK(load_text(xml, options).job.camera->resolution() == Vec2i(65535, 65535));
+    options = {};
+    options.resolution = Vec2i(4, 4);
+    CHECK(load_text(xml, options).job.camera->resolution() == Vec2i(4, 4));
+}
+
+TEST_CASE("scene files that cannot be read", "[unit][loader]")
+{
+    const TempFolder folder;
+    CHECK_THROWS_WITH(load_scene(folder / "none.xml"), ContainsSubstring("there is no file '"));
+    CHECK_THROWS_AS(load_scene(folder / "none.xml"), Error);
+    CHECK_THROWS_WITH(load_scene(folder.path()), ContainsSubstring("is a folder"));
+}
+
+TEST_CASE("an integrator that cannot render the scene is an error at its place", "[unit][loader]")
+{
+    const std::string text =
+        errors("<scene>\n<integrator type='path'><boolean name='isExplicit' value='true'/>"
+               "<string name='termination' value='max-depth'/>"
+               "<string name='direct-measure' value='solid-angle'/></integrator>" +
+               camera +
+               "<shape type='rectangle'><emitter type='area'><color name='radiance' value='1 1 1'/>"
+               "</emitter></shape></scene>");
+    CHECK_THAT(text, ContainsSubstring("scene.xml:2:1: error: ") && ContainsSubstring("solid"));
+}
