@@ -25,6 +25,9 @@ struct SourceLocation {
 
     static SourceLocation from_offset(std::string file, std::string_view text, std::size_t offset,
                                       std::size_t length = 1);
+    // The same for a line that has been found already; offset counts from its start.
+    static SourceLocation from_line(std::string file, int line, std::string_view text, std::size_t offset,
+                                    std::size_t length = 1);
 };
 
 enum class Severity { error, warning, note };

@@ -37,7 +37,8 @@ struct Property {
     Value value;
     SourceLocation name_at;  // of the value of the name attribute
     SourceLocation value_at; // of the value attribute (transform: of the element)
-    bool broken = false;     // its value could not be read, which has been reported: getters return their fallback
+    bool broken =
+        false; // its value could not be read, which has been reported: getters return their fallback
     mutable bool asked = false;
 };
 

@@ -21,6 +21,16 @@ struct Ray {
     Vec3f at(float t) const { return origin + direction * t; }
 };
 
+// Whether a ray can be traced: not a number, infinity and coordinates beyond 1e18 can not (Embree's own limit is 1.8e18).
+inline bool is_traceable(const Ray& ray)
+{
+    constexpr float limit = 1e18f;
+    const auto within = [](const Vec3f& v) {
+        return std::abs(v.x) <= limit && std::abs(v.y) <= limit && std::abs(v.z) <= limit;
+    };
+    return within(ray.origin) && within(ray.direction) && ray.t_min >= 0.f && ray.t_max >= ray.t_min;
+}
+
 // The next float above or below a finite x.
 inline float next_float(float x, bool up)
 {

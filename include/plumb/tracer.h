@@ -6,6 +6,7 @@
 #include "plumb/scene.h"
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace plumb {
@@ -40,6 +41,10 @@ public:
     // Whether light from the sampled point arrives at `from`.
     bool visible(const SurfacePoint& from, const EmitterSample& light);
 
+    // Whether a ray since the last call was not traceable (ray.h): it met nothing and saw nothing, and the sample that
+    // asked for it must not count.
+    bool take_failure() { return std::exchange(failed_, false); }
+
     // The log costs one test of a pointer when nobody reads it.
     bool logging() const { return log_ != nullptr; }
     void log(PathEvent::Kind kind, std::string text);
@@ -49,6 +54,7 @@ public:
 private:
     const Scene& scene_;
     RayCounts counts_;
+    bool failed_ = false;
     std::vector<PathEvent>* log_;
 };
 

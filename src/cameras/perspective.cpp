@@ -62,6 +62,9 @@ public:
         half_width_ = half.sin / half.cos;
         half_height_ = half_width_ * resolution_.y / resolution_.x;
         if (params.dialect().mirrored_view) half_width_ = -half_width_;
+        pixel_width_ = 2.0 * half_width_ / resolution_.x;
+        pixel_height_ = 2.0 * half_height_ / resolution_.y;
+        position_ = to_world_.point(Vec3d(0.0, 0.0, 0.0));
         read_clipping(params);
         read_lens(params);
     }
@@ -97,6 +100,7 @@ private:
     {
         if (params.has("nearClip")) near_clip_ = params.number("nearClip", 0.f, Range::at_least(0.0));
         if (params.has("farClip")) far_clip_ = params.number("farClip", infinity, Range::positive());
+        clips_ = near_clip_ > 0.0 || far_clip_ < std::numeric_limits<double>::infinity();
         if (!(near_clip_ < far_clip_)) params.fail("nearClip", "must be less than farClip");
     }
 
@@ -121,7 +125,7 @@ private:
     double half_height_ = 1.0;
     double pixel_width_ = 0.0; // of one pixel in that plane
     double pixel_height_ = 0.0;
-    Vec3d position_;
+    Vec3d position_{0.0, 0.0, 0.0}; // of the pinhole, in the world
     bool clips_ = false;
     double near_clip_ = 0.0;
     double far_clip_ = std::numeric_limits<double>::infinity();

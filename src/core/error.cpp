@@ -138,20 +138,27 @@ SourceLocation SourceLocation::from_offset(std::string file, std::string_view te
 {
     offset = std::min(offset, text.size());
     const std::string_view before = text.substr(0, offset);
-    const std::size_t line_start = before.rfind('\n') == std::string_view::npos ? 0 : before.rfind('\n') + 1;
-    std::size_t line_end = std::min(text.find('\n', offset), text.size());
-    if (line_end > line_start && text[line_end - 1] == '\r') --line_end;
-    const std::size_t kept_start = std::max(line_start, offset - std::min(offset, kept_bytes));
-    const std::size_t kept_end = std::max(kept_start, std::min(line_end, offset + kept_bytes));
+    const std::size_t newline = before.rfind('\n');
+    const std::size_t start = newline == std::string_view::npos ? 0 : newline + 1;
+    const std::size_t end = std::min(text.find('\n', offset), text.size());
+    const auto line = static_cast<int>(std::count(before.begin(), before.end(), '\n')) + 1;
+    return from_line(std::move(file), line, text.substr(start, end - start), offset - start, length);
+}
+
+SourceLocation SourceLocation::from_line(std::string file, int line, std::string_view text,
+                                         std::size_t offset, std::size_t length)
+{
+    while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) text.remove_suffix(1);
+    const std::size_t start = std::min(offset - std::min(offset, kept_bytes), text.size());
+    const std::size_t end = std::max(start, std::min(text.size(), offset + kept_bytes));
 
     SourceLocation at;
     at.file = std::move(file);
-    at.line = static_cast<int>(std::count(before.begin(), before.end(), '\n')) + 1;
-    at.column = static_cast<int>(offset - line_start) + 1;
-    at.length =
-        static_cast<int>(std::clamp<std::size_t>(length, 1, kept_end > offset ? kept_end - offset : 1));
-    at.line_text = text.substr(kept_start, kept_end - kept_start);
-    at.line_text_column = static_cast<int>(kept_start - line_start) + 1;
+    at.line = line;
+    at.column = static_cast<int>(offset) + 1;
+    at.length = static_cast<int>(std::clamp<std::size_t>(length, 1, end > offset ? end - offset : 1));
+    at.line_text = text.substr(start, end - start);
+    at.line_text_column = static_cast<int>(start) + 1;
     return at;
 }
 

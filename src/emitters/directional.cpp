@@ -29,7 +29,10 @@ public:
                                                              : "must be given: it points towards the light");
     }
 
-    void prepare(const SceneSphere& sphere) override { scene_radius_ = sphere.radius > 0.f ? sphere.radius : 1.f; }
+    void prepare(const SceneSphere& sphere) override
+    {
+        scene_radius_ = sphere.radius > 0.f ? sphere.radius : 1.f;
+    }
 
     std::optional<EmitterSample> sample(const Vec3f& /*from*/, double /*u_select*/, Vec2f /*u*/,
                                         Measure /*measure*/) const override

@@ -87,7 +87,7 @@ std::optional<DirectTechnique::Found> DirectTechnique::find(Tracer& tracer, Samp
     const auto sampled = direction(sampler, vertex);
     if (!sampled || sampled->is_delta()) return std::nullopt;
     const Vec3f wo_world = vertex.to_world(*sampled);
-    const BsdfValue value = vertex.evaluate(sampled->wo, wo_world);
+    const BsdfValue value = vertex.evaluate_local(sampled->wo);
     if (value.f_cos.is_black()) return std::nullopt;
     const auto hit = tracer.intersect(vertex.at().spawn_ray(wo_world), RayKind::bounce);
     const SurfacePoint* point = hit ? &*hit : nullptr;

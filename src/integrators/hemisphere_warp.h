@@ -38,7 +38,7 @@ inline std::optional<BsdfSample> scatter_over_hemisphere(HemisphereWarp warp, Sa
     const Vec3f wo = sample_hemisphere(warp, sampler.next_2d());
     const float pdf = hemisphere_pdf(warp, wo);
     if (!(pdf > 0.f)) return std::nullopt;
-    const BsdfValue value = vertex.evaluate(wo, vertex.at().shading.to_world(wo));
+    const BsdfValue value = vertex.evaluate_local(wo);
     return BsdfSample{wo, value.f_cos / pdf, pdf};
 }
 

@@ -9,15 +9,13 @@ namespace plumb {
 
 // Conventions. wi and every wo here live in the shading frame, as in bsdf.h; *_world are in world space.
 //
-// Shading normals. The geometry, not the interpolated normal, decides on which side of the surface a direction lies
-// (Veach 1997, section 5.3.2): a BSDF gives nothing where its reflection would cross the true surface or its
-// transmission would not. All techniques ask here, so all agree; a BSDF with flat normals never notices.
+// Shading normals. The interpolated normal decides what a BSDF does, the geometry only where the next ray starts: where
+// the two disagree about a direction's side, the path goes on as the BSDF says, through the surface if need be. So do
+// the courses' renderers and pbrt. All techniques ask here, so all agree; flat normals never notice.
 class Vertex {
 public:
     Vertex(const SurfacePoint& at, const Vec3f& ray_direction)
-        : at_(at),
-          wi_(at.shading.to_local(-ray_direction)),
-          wi_side_(-dot(at.geometric_normal, ray_direction))
+        : at_(at), wi_(at.shading.to_local(-ray_direction))
     {}
 
     const SurfacePoint& at() const { return at_; }
@@ -26,22 +24,12 @@ public:
     // Whether evaluate() can be anything but black.
     bool has_smooth_lobes() const { return (lobes().bits & ~delta_lobes.bits) != 0; }
 
-    BsdfValue evaluate(const Vec3f& wo, const Vec3f& wo_world) const
-    {
-        BsdfValue value = at_.bsdf->evaluate(at_, wi_, wo);
-        if (!sides_agree(wo, wo_world)) value.f_cos = Color(0.f);
-        return value;
-    }
-    BsdfValue evaluate(const Vec3f& wo_world) const
-    {
-        return evaluate(at_.shading.to_local(wo_world), wo_world);
-    }
+    BsdfValue evaluate(const Vec3f& wo_world) const { return evaluate_local(at_.shading.to_local(wo_world)); }
+    BsdfValue evaluate_local(const Vec3f& wo) const { return at_.bsdf->evaluate(at_, wi_, wo); }
 
     std::optional<BsdfSample> sample(float u_lobe, Vec2f u) const
     {
-        std::optional<BsdfSample> sampled = at_.bsdf->sample(at_, wi_, u_lobe, u);
-        if (sampled && !sides_agree(sampled->wo, to_world(*sampled))) sampled.reset();
-        return sampled;
+        return at_.bsdf->sample(at_, wi_, u_lobe, u);
     }
 
     Vec3f to_world(const BsdfSample& sampled) const { return at_.shading.to_world(sampled.wo); }
@@ -49,14 +37,8 @@ public:
 private:
     Lobes lobes() const { return at_.bsdf->lobes(); }
 
-    bool sides_agree(const Vec3f& wo, const Vec3f& wo_world) const
-    {
-        return same_hemisphere(wi_, wo) == (wi_side_ * dot(at_.geometric_normal, wo_world) > 0.f);
-    }
-
     const SurfacePoint& at_;
     Vec3f wi_;
-    float wi_side_; // cosine between wi and the geometric normal
 };
 
 } // namespace plumb

@@ -4,6 +4,7 @@
 
 #include "plumb/image.h"
 
+#include "io/image_png.h"
 #include "io/image_quiet.h"
 #include "io/image_text.h"
 #include "plumb/error.h"
@@ -196,6 +197,7 @@ Image read_image(const std::filesystem::path& path, bool decode_srgb)
     const std::filesystem::file_status status = std::filesystem::status(path, error);
     if (!std::filesystem::exists(status)) throw fail("no such file");
     if (std::filesystem::is_directory(status)) throw fail("it is a folder");
+    if (is_truncated_png(path)) throw fail("the file ends early");
     try {
         const QuietStandardError quiet;
         const std::unique_ptr<OIIO::ImageInput> input = open(name);

@@ -21,6 +21,8 @@ namespace plumb {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double ln2_high = 0x1.62e42feep-1; // times a small integer, this part of ln 2 is exact [1]
+constexpr double ln2_low = 0x1.a39ef35793c76p-33;
 constexpr double two_over_pi = 0x1.45f306dc9c883p-1;
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
@@ -122,21 +124,35 @@ inline SinCosD rotate_quadrants(double sin, double cos, std::int64_t quadrant)
             std::bit_cast<double>(c ^ exchanged ^ negative_cos)};
 }
 
+// Sine and cosine with relative errors of 1e-11, for results that will be rounded to float. No float below 1e5 is
+// closer than 1e-9 to a multiple of pi/2 (but 0), so that 33 + 53 bits of pi/2 are enough.
+inline SinCosD sin_cos_for_float(double x)
+{
+    constexpr double half_pi_high = 0x1.921fb544p+0;
+    constexpr double half_pi_low = 0x1.0b4611a626331p-34;
+    static constexpr auto sin_terms = inverse_factorials<5>(3, 2, -1.0);
+    static constexpr auto cos_terms = inverse_factorials<6>(2, 2, -1.0);
+    const double k = std::floor(x * two_over_pi + 0.5);
+    const double r = (x - k * half_pi_high) - k * half_pi_low;
+    const double r2 = r * r;
+    const double sin = r - r * r2 * polynomial(sin_terms, r2);
+    const double cos = 1.0 - r2 * polynomial(cos_terms, r2);
+    return rotate_quadrants(sin, cos, static_cast<std::int64_t>(k));
+}
+
 // atan of num / den for 0 <= num <= den, den > 0.
 inline double atan_in_first_octant(double num, double den)
 {
     // atan(j / 8)
-    static constexpr std::array<double, 9> table = {
-        0.0,
-        0x1.fd5ba9aac2f6ep-4,
-        0x1.f5b75f92c80ddp-3,
-        0x1.6f61941e4def1p-2,
-        0x1.dac670561bb4fp-2,
-        0x1.1e00babdefeb4p-1,
-        0x1.4978fa3269ee1p-1,
-        0x1.700a7c5784634p-1,
-        0x1.921fb54442d18p-1,
-    };
+    static constexpr std::array<double, 9> table = {0.0,
+                                                    0x1.fd5ba9aac2f6ep-4,
+                                                    0x1.f5b75f92c80ddp-3,
+                                                    0x1.6f61941e4def1p-2,
+                                                    0x1.dac670561bb4fp-2,
+                                                    0x1.1e00babdefeb4p-1,
+                                                    0x1.4978fa3269ee1p-1,
+                                                    0x1.700a7c5784634p-1,
+                                                    0x1.921fb54442d18p-1};
     // atan a = atan c + atan((a - c) / (1 + a c)) with c = j / 8 nearest to a: the second argument is below 1/16,
     // and the first term that is left out below (1/16)^16 / 17 = 3e-21.
     static constexpr auto terms = inverse_odd_numbers<7>(-1.0);
@@ -161,8 +177,6 @@ SinCosD sin_cos(double x)
 double exp(double x)
 {
     constexpr double log2_e = 0x1.71547652b82fep+0;
-    constexpr double ln2_high = 0x1.62e42feep-1; // 32 bits: k ln2_high is exact [1]
-    constexpr double ln2_low = 0x1.a39ef35793c76p-33;
     if (std::isnan(x)) return x;
     if (x > 0x1.62e42fefa39efp+9) return infinity;
     if (x < -0x1.6232bdd7abcd2p+9) return 0.0; // the result is below the smallest normal number
@@ -179,8 +193,6 @@ double exp(double x)
 
 double log(double x)
 {
-    constexpr double ln2_high = 0x1.62e42feep-1;
-    constexpr double ln2_low = 0x1.a39ef35793c76p-33;
     constexpr double sqrt_2 = 0x1.6a09e667f3bcdp+0;
     if (!(x > 0.0)) return x == 0.0 ? -infinity : not_a_number;
     if (x == infinity) return x;
@@ -224,42 +236,6 @@ double atan2(double y, double x)
     if (x < 0.0) angle = pi - angle;
     return y < 0.0 ? -angle : angle;
 }
-
-// Abramowitz and Stegun 7.1.6: a series whose terms are all positive.
-double erf(double x)
-{
-    constexpr double two_over_sqrt_pi = 0x1.20dd750429b6dp+0;
-    if (std::isnan(x)) return x;
-    if (std::abs(x) >= 6.0) return x < 0.0 ? -1.0 : 1.0; // 1 - erf(6) = 2e-17
-    const double x2 = x * x;
-    double sum = 1.0;
-    double term = 1.0;
-    for (double n = 3.0; term > 0x1p-60 * sum; n += 2.0) {
-        term *= 2.0 * x2 / n;
-        sum += term;
-    }
-    return std::clamp(two_over_sqrt_pi * x * exp(-x2) * sum, -1.0, 1.0);
-}
-
-namespace {
-
-// Sine and cosine with relative errors of 1e-11, for results that will be rounded to float. No float below 1e5 is
-// closer than 1e-9 to a multiple of pi/2 (but 0), so that 33 + 53 bits of pi/2 are enough.
-inline SinCosD sin_cos_for_float(double x)
-{
-    constexpr double half_pi_high = 0x1.921fb544p+0;
-    constexpr double half_pi_low = 0x1.0b4611a626331p-34;
-    static constexpr auto sin_terms = inverse_factorials<5>(3, 2, -1.0);
-    static constexpr auto cos_terms = inverse_factorials<6>(2, 2, -1.0);
-    const double k = std::floor(x * two_over_pi + 0.5);
-    const double r = (x - k * half_pi_high) - k * half_pi_low;
-    const double r2 = r * r;
-    const double sin = r - r * r2 * polynomial(sin_terms, r2);
-    const double cos = 1.0 - r2 * polynomial(cos_terms, r2);
-    return rotate_quadrants(sin, cos, static_cast<std::int64_t>(k));
-}
-
-} // namespace
 
 SinCos sin_cos(float x)
 {

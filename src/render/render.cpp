@@ -47,7 +47,8 @@ SampleTaken take_sample(const RenderJob& job, Tracer& tracer, Sampler& sampler, 
     const Vec2f raster(static_cast<float>(pixel.x) + 0.5f + place.offset.x,
                        static_cast<float>(pixel.y) + 0.5f + place.offset.y);
     const CameraRay camera_ray = job.camera->sample_ray(raster, u_lens);
-    const Color radiance = job.integrator->radiance(tracer, sampler, camera_ray.ray) * camera_ray.weight;
+    Color radiance = job.integrator->radiance(tracer, sampler, camera_ray.ray) * camera_ray.weight;
+    if (tracer.take_failure()) radiance = Color(std::numeric_limits<float>::quiet_NaN());
     return {radiance, raster, place.weight};
 }
 

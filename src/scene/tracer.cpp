@@ -35,7 +35,12 @@ RayCounts& RayCounts::operator+=(const RayCounts& other)
 std::optional<SurfacePoint> Tracer::intersect(const Ray& ray, RayKind kind)
 {
     ++(kind == RayKind::camera ? counts_.camera : kind == RayKind::bounce ? counts_.bounce : counts_.shadow);
-    const std::optional<SurfacePoint> hit = scene_.intersect(ray);
+    if (!is_traceable(ray)) {
+        failed_ = true;
+        log(PathEvent::Kind::end, "a ray that is not finite: the sample does not count");
+        return std::nullopt;
+    }
+    std::optional<SurfacePoint> hit = scene_.intersect(ray);
     if (logging()) {
         log(PathEvent::Kind::ray,
             fmt::format("{} ray from {} along {}", name_of(kind), text(ray.origin), text(ray.direction)));
@@ -58,6 +63,10 @@ std::optional<SurfacePoint> Tracer::intersect(const Ray& ray, RayKind kind)
 bool Tracer::occluded(const Ray& ray)
 {
     ++counts_.shadow;
+    if (!is_traceable(ray)) {
+        failed_ = true;
+        return true;
+    }
     return scene_.occluded(ray);
 }
 

@@ -99,10 +99,9 @@ SourceLocation TextFile::place(std::size_t offset, std::size_t length) const
     offset = std::min(offset, text_.size());
     const auto after = std::upper_bound(line_starts_.begin(), line_starts_.end(), offset);
     const std::size_t start = *(after - 1), end = after == line_starts_.end() ? text_.size() : *after;
-    auto at = SourceLocation::from_offset(path_.string(), std::string_view(text_).substr(start, end - start),
-                                          offset - start, length);
-    at.line = static_cast<int>(after - line_starts_.begin());
-    return at;
+    return SourceLocation::from_line(path_.string(), static_cast<int>(after - line_starts_.begin()),
+                                     std::string_view(text_).substr(start, end - start), offset - start,
+                                     length);
 }
 
 const Attribute* Element::attribute(std::string_view name) const

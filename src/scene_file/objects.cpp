@@ -167,18 +167,14 @@ void ObjectReader::finish()
     for (const auto& [name, at] : given_) {
         const IgnoredParameter* ignored = find_ignored(kind_of(element_), type_, name);
         if (!ignored || !params_.is_unused(name)) continue;
-        std::string used(ignored->instead_default), given;
-        for (const Element& child : element_.children) {
-            if (child.value("name") == ignored->instead && ignored->instead != name)
-                used = child.value("value");
-            if (child.value("name") == name) given = child.value("value");
-        }
-        const bool harmless = ignored->instead.empty() || given == ignored->instead_default;
+        std::string used(ignored->instead_default);
+        for (const Element& child : element_.children)
+            if (child.value("name") == ignored->instead) used = child.value("value");
         params_.ignore(
-            name, harmless ? std::string()
-                           : fmt::format("'{}' is not read, neither here nor in the course's own code: {} "
-                                         "is {}",
-                                         name, ignored->instead, used));
+            name, ignored->instead.empty()
+                      ? std::string()
+                      : fmt::format("'{}' is not read, neither here nor in the course's own code: {} is {}",
+                                    name, ignored->instead, used));
     }
     params_.reject_unused();
 }

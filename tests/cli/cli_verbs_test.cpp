@@ -68,7 +68,7 @@ TEST_CASE("samples that were left out are counted, and can be replayed", "[cli][
     const RunResult result =
         folder.run({"too bright.xml", "-o", "a.exr", "--spp", "4", "--crop", "1,0,2,2", "--json", "-"});
     CHECK(result.exit_code == 0);
-    const std::string first = "sample 0 of pixel 1,0 (out of the film's range: 1e+12 1 1)";
+    const std::string first = "sample 0 of pixel 1,0 (out of the film's range: 1000000000000 1 1)";
     const std::string words = " replay 'too bright.xml' --pixel 1,0 --sample 0 --spp 4";
     CHECK_THAT(result.err, ContainsSubstring("warning: 16 samples were left out, the first is " + first +
                                              "; to see its path:\n    renderer" + words + "\n"));

@@ -312,7 +312,7 @@ TEST_CASE("broken pictures are errors on one line that name the file", "[unit][i
         folder.write("text" + extension, "this is no picture");
         check("text" + extension);
     }
-    for (const std::string extension : {".png", ".exr", ".tif"}) {
+    for (const std::string extension : {".png", ".exr", ".tif", ".jpg", ".hdr"}) {
         write_image(folder / ("whole" + extension), numbered({0, 0, 64, 64}, 64, 64));
         const std::string bytes = read_bytes(folder / ("whole" + extension));
         folder.write("half" + extension, bytes.substr(0, bytes.size() / 2));

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// What has to be known of a PNG file before libpng reads it.
+
+#include <filesystem>
+
+namespace plumb {
+
+// Whether the file begins as a PNG file does and ends before its last chunk does. libpng gives up on such files by a
+// jump that leaks what OpenImageIO holds, with a message that nobody understands.
+bool is_truncated_png(const std::filesystem::path& path);
+
+} // namespace plumb
