@@ -36,6 +36,16 @@ void log_facts(const Options& options, const LoadedScene& loaded)
                           duration_text(loaded.build_seconds), loaded.input_hash));
 }
 
+// What has to fit into memory: the crop, or the one pixel that is replayed.
+LoadOptions load_options(const Options& options)
+{
+    LoadOptions load = options.load;
+    if (const auto& crop = options.render.crop)
+        load.kept_pixels = static_cast<std::uint64_t>(crop->width) * static_cast<std::uint64_t>(crop->height);
+    if (options.verb == Verb::replay) load.kept_pixels = 1;
+    return load;
+}
+
 } // namespace
 
 LoadedScene load_and_log(const Options& options)
@@ -48,7 +58,7 @@ LoadedScene load_and_log(const Options& options)
                                  : fmt::format("there is no scene file '{}'; did you mean the verb '{}'?",
                                                options.subject, verb));
     }
-    LoadedScene scene = load_scene(path, options.load);
+    LoadedScene scene = load_scene(path, load_options(options));
     if (options.quiet) return scene;
     for (const Diagnostic& warning : scene.warnings) print_log(warning.text());
     print_log(fmt::format("dialect: {} ({})", to_string(scene.dialect.name), scene.dialect.reason));

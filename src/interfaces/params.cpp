@@ -223,9 +223,12 @@ std::filesystem::path Params::file(std::string_view name) const
         return path;
     }
     missing_file_ = true;
-    fail(name, std::filesystem::is_directory(path, status)
-                   ? fmt::format("is a folder, not a file: '{}'", path.string())
-                   : fmt::format("names a file that does not exist: '{}'", path.string()));
+    fail(name,
+         fmt::format("{}: '{}'",
+                     std::filesystem::is_directory(path, status) ? "is a folder, not a file"
+                     : std::filesystem::exists(path, status) ? "is a device, a pipe or the like, not a file"
+                                                             : "names a file that does not exist",
+                     path.string()));
     return path;
 }
 

@@ -197,6 +197,8 @@ Image read_image(const std::filesystem::path& path, bool decode_srgb)
     const std::filesystem::file_status status = std::filesystem::status(path, error);
     if (!std::filesystem::exists(status)) throw fail("no such file");
     if (std::filesystem::is_directory(status)) throw fail("it is a folder");
+    if (!std::filesystem::is_regular_file(status))
+        throw fail("it is a device, a pipe or the like, not a file");
     if (is_truncated_png(path)) throw fail("the file ends early");
     try {
         const QuietStandardError quiet;

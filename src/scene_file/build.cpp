@@ -79,9 +79,11 @@ private:
             return;
         }
         const SourceLocation first = kept->place(), second = child.place();
-        diagnostics_.error(second, fmt::format("a second <{}>; there must be one, and the first is at {} {}",
-                                               child.tag, first.file == second.file ? "line" : first.file,
-                                               first.line));
+        const bool environment = child.tag == "emitter" && child.value("type") == "environment";
+        diagnostics_.error(second,
+                           fmt::format("a second {}; there can be only one, and the first is at {} {}",
+                                       environment ? "'environment'" : fmt::format("<{}>", child.tag),
+                                       first.file == second.file ? "line" : first.file, first.line));
     }
 
     void check_property(const Element& child)
@@ -245,8 +247,10 @@ private:
         std::vector<std::string_view> names;
         for (const Entry<Kind>& entry : entries) names.push_back(entry.name);
         if (std::find(names.begin(), names.end(), type) != names.end()) return true;
+        const auto instead = unsupported(option, type);
         diagnostics_.error(
-            {}, fmt::format("--{0} {1}: unknown {0} '{1}'{2}", option, type, way_out(type, names)));
+            {}, instead ? fmt::format("--{0} {1}: {0} '{1}' is not supported; {2}", option, type, *instead)
+                        : fmt::format("--{0} {1}: unknown {0} '{1}'{2}", option, type, way_out(type, names)));
         return false;
     }
 
