@@ -218,12 +218,11 @@ int run(int argc, char** argv)
         for (int i = 0; i < threads; ++i) pool.emplace_back([&] { loop.work(); });
     }
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    std::printf(
-        "{\"triangles\": %zu, \"threads\": %d, \"spp\": %d, \"rays\": %llu, \"seconds\": %.4f, "
-        "\"rays_per_second\": %.0f, \"mean\": %.6g}\n",
-        triangles.indices.size(), threads, samples, static_cast<unsigned long long>(loop.rays.load()),
-        seconds, static_cast<double>(loop.rays.load()) / seconds,
-        static_cast<double>(loop.sum.load()) / loop.size.x / loop.size.y / samples);
+    std::printf("{\"triangles\": %zu, \"threads\": %d, \"spp\": %d, \"rays\": %llu, \"seconds\": %.4f, "
+                "\"rays_per_second\": %.0f, \"mean\": %.6g}\n",
+                triangles.indices.size(), threads, samples, static_cast<unsigned long long>(loop.rays.load()),
+                seconds, static_cast<double>(loop.rays.load()) / seconds,
+                static_cast<double>(loop.sum.load()) / loop.size.x / loop.size.y / samples);
     return 0;
 }
 

@@ -15,20 +15,23 @@ namespace plumb {
 // way. `best`: by solid angle where the shape can, else by area.
 enum class Measure { best, area, solid_angle };
 
+class Emitter;
+
 struct EmitterValue {
     Color radiance;
     float pdf = 0.f; // per unit solid angle, as sample() in the same measure would have chosen this direction
 };
 
 struct EmitterSample {
-    Vec3f wi;              // unit vector from the receiver towards the light, world space
-    float distance;        // infinity for directional and environment light
-    Vec3f position;        // the chosen point (finite emitters)
-    Vec3f error;           // as in SurfacePoint; zero for lights without a surface
-    Vec3f normal;          // geometric normal at position; zero for lights without a surface
+    Vec3f wi{0.f};         // unit vector from the receiver towards the light, world space
+    float distance = 0.f;  // infinity for directional and environment light
+    Vec3f position{0.f};   // the chosen point (finite emitters)
+    Vec3f error{0.f};      // as in SurfacePoint; zero for lights without a surface
+    Vec3f normal{0.f};     // geometric normal at position; zero for lights without a surface
     Color radiance;        // arriving if nothing is in between; for point lights intensity / distance^2
-    float pdf;             // per unit solid angle; 1 where is_delta
+    float pdf = 0.f;       // per unit solid angle; 1 where is_delta
     bool is_delta = false; // no other technique can find this light
+    const Emitter* emitter = nullptr; // set by Scene, which chose it
 };
 
 // The sphere around everything that is not infinitely far away.

@@ -4,6 +4,8 @@
 // Where a ray meets a triangle or a sphere, in our own double-precision arithmetic.
 //
 // Embree finds which primitive a ray meets; these say where, with the same bits on every machine.
+//
+// [1] Moeller and Trumbore 1997, "Fast, Minimum Storage Ray/Triangle Intersection", Journal of Graphics Tools 2(1).
 
 #include "plumb/ray.h"
 
@@ -13,12 +15,37 @@
 namespace plumb {
 
 // Barycentric coordinates of the point where the ray meets the plane of the triangle, moved into the triangle if
-// rounding left them outside: position = (1 - u - v) p0 + u p1 + v p2. Moeller and Trumbore 1997, equation 4.
+// rounding left them outside: position = (1 - u - v) p0 + u p1 + v p2.
 struct Barycentric {
     double u = 0.0;
     double v = 0.0;
 };
-Barycentric intersect_triangle(const Ray& ray, const Vec3f& p0, const Vec3f& p1, const Vec3f& p2);
+inline Barycentric intersect_triangle(const Ray& ray, const Vec3f& p0, const Vec3f& p1, const Vec3f& p2)
+{
+    // [1], equation 4. Differences of floats are (nearly always) exact in double precision.
+    const Vec3d direction(ray.direction);
+    const Vec3d corner(p0);
+    const Vec3d edge1 = Vec3d(p1) - corner;
+    const Vec3d edge2 = Vec3d(p2) - corner;
+    const Vec3d to_origin = Vec3d(ray.origin) - corner;
+    const Vec3d p = cross(direction, edge2);
+    const Vec3d q = cross(to_origin, edge1);
+    const double scale = 1.0 / dot(edge1, p);
+    double u = dot(to_origin, p) * scale;
+    double v = dot(direction, q) * scale;
+
+    // A ray in the plane of the triangle, or a triangle without area: any point of it will do.
+    if (!std::isfinite(u) || !std::isfinite(v)) return {1.0 / 3.0, 1.0 / 3.0};
+
+    u = std::max(u, 0.0);
+    v = std::max(v, 0.0);
+    const double sum = u + v;
+    if (sum > 1.0) {
+        u /= sum;
+        v /= sum;
+    }
+    return {u, v};
+}
 
 // The smallest t with t_min < t < t_max at which the ray meets the sphere from outside or inside.
 std::optional<double> intersect_sphere(const Ray& ray, const Vec3f& center, float radius);

@@ -21,14 +21,14 @@ struct Ray {
     Vec3f at(float t) const { return origin + direction * t; }
 };
 
-// Whether a ray can be traced: not a number, infinity and coordinates beyond 1e18 can not (Embree's own limit is 1.8e18).
+// Whether a ray can be traced: not a number, infinity and coordinates that add up to more than Embree's limit of a
+// single one can not.
 inline bool is_traceable(const Ray& ray)
 {
-    constexpr float limit = 1e18f;
-    const auto within = [](const Vec3f& v) {
-        return std::abs(v.x) <= limit && std::abs(v.y) <= limit && std::abs(v.z) <= limit;
-    };
-    return within(ray.origin) && within(ray.direction) && ray.t_min >= 0.f && ray.t_max >= ray.t_min;
+    constexpr float limit = 1.8e18f;
+    const auto sum = [](const Vec3f& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); };
+    return sum(ray.origin) <= limit && sum(ray.direction) <= limit && ray.t_min >= 0.f &&
+           ray.t_max >= ray.t_min;
 }
 
 // The next float above or below a finite x.
@@ -41,15 +41,13 @@ inline float next_float(float x, bool up)
 
 // Moves p off its surface to the side that `towards` points to, so that neither the rounding of p nor the error of
 // a ray-triangle test with p as origin finds that surface again. error: per axis, how far p may be from the true
-// surface. The offset follows pbrt 4th ed., section 6.8.6: the error box is left along the normal, then each
-// coordinate is rounded away from the surface.
+// surface. As in pbrt 4th ed., section 6.8.6, the error box is left along the normal; here the box has been widened
+// by what rounding the result can take back. The smallest number moves points with the coordinate 0 as well.
 inline Vec3f offset_origin(const Vec3f& p, const Vec3f& error, const Vec3f& normal, const Vec3f& towards)
 {
-    const float distance = dot(abs(normal), error);
-    const float side = dot(towards, normal) < 0.f ? -1.f : 1.f;
-    const Vec3f moved = p + normal * (side * distance);
-    const auto round_away = [side](float x, float n) { return n == 0.f ? x : next_float(x, side * n > 0.f); };
-    return {round_away(moved.x, normal.x), round_away(moved.y, normal.y), round_away(moved.z, normal.z)};
+    const Vec3f box = error + abs(p) * (2.f * unit_roundoff);
+    const float distance = dot(abs(normal), box) + std::numeric_limits<float>::min();
+    return p + normal * std::copysign(distance, dot(towards, normal));
 }
 
 } // namespace plumb

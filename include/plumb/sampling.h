@@ -15,7 +15,10 @@ Vec2f square_to_concentric_disk(Vec2f u); // Shirley and Chiu 1997; unit disk
 float concentric_disk_pdf(const Vec2f& p);
 
 Vec3f square_to_cosine_hemisphere(Vec2f u); // Malley's method over the concentric disk
-float cosine_hemisphere_pdf(const Vec3f& w);
+inline float cosine_hemisphere_pdf(const Vec3f& w)
+{
+    return std::max(w.z, 0.f) * inv_pi;
+}
 
 Vec3f square_to_uniform_hemisphere(Vec2f u);
 float uniform_hemisphere_pdf(const Vec3f& w);

@@ -27,11 +27,6 @@ struct SceneOptions {
         "avx2"; // sse2, sse4.2, avx, avx2 or avx512: Embree traces with this and no other
 };
 
-// An emitter chosen among all, and a point on it. pdf includes the choice.
-struct LightSample : EmitterSample {
-    const Emitter* emitter = nullptr;
-};
-
 // Conventions. World space. Emitters are chosen in proportion to their power.
 class Scene {
 public:
@@ -47,11 +42,11 @@ public:
     // The ray between a surface point and a light's chosen point, clear of both surfaces.
     static Ray shadow_ray(const SurfacePoint& from, const EmitterSample& light);
 
-    // One emitter, chosen by u_choice (which is used up: what is left of it selects a part of the emitter).
-    // delta_only: choose among point and directional lights alone.
-    std::optional<LightSample> sample_emitter(const Vec3f& from, double u_choice, Vec2f u,
-                                              Measure measure = Measure::best) const;
-    std::optional<LightSample> sample_delta_emitter(const Vec3f& from, double u_choice, Vec2f u) const;
+    // A point of one emitter, chosen by u_choice (which is used up: what is left of it selects a part of the
+    // emitter), among all or among point and directional lights alone. pdf includes the choice.
+    std::optional<EmitterSample> sample_emitter(const Vec3f& from, double u_choice, Vec2f u,
+                                                Measure measure = Measure::best) const;
+    std::optional<EmitterSample> sample_delta_emitter(const Vec3f& from, double u_choice, Vec2f u) const;
     // What a ray from `from` along unit wi sees: the emitter of the surface it hit or, with hit == nullptr, all
     // infinite emitters. pdf: as sample_emitter would have chosen it. Black where nothing is emitted.
     EmitterValue emission(const Vec3f& from, const Vec3f& wi, const SurfacePoint* hit,
@@ -68,6 +63,10 @@ public:
 
 private:
     class Accel;
+    std::optional<EmitterSample> sample_chosen(const Emitter& emitter,
+                                               const DiscreteDistribution::Choice& choice, const Vec3f& from,
+                                               Vec2f u, Measure measure) const;
+
     SceneOptions options_;
     std::vector<SceneObject> objects_;
     std::vector<std::unique_ptr<Emitter>> lights_;

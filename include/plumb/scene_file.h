@@ -7,6 +7,7 @@
 #include "plumb/error.h"
 #include "plumb/render.h"
 
+#include <filesystem>
 #include <map>
 #include <string>
 
@@ -36,6 +37,7 @@ struct LoadedScene {
     std::string integrator; // type names, for the header
     std::string sampler;
     std::string input_hash; // of every byte read: scene files, meshes, images; 32 hex digits
+    std::vector<std::filesystem::path> inputs; // those files
     std::vector<Diagnostic> warnings;
     double parse_seconds = 0.0; // XML, meshes and images
     double build_seconds = 0.0; // Embree

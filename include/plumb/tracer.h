@@ -19,6 +19,10 @@ struct RayCounts {
     std::uint64_t shadow = 0;
 
     std::uint64_t total() const { return camera + bounce + shadow; }
+    std::uint64_t& of(RayKind kind)
+    {
+        return kind == RayKind::camera ? camera : kind == RayKind::bounce ? bounce : shadow;
+    }
     RayCounts& operator+=(const RayCounts& other);
 };
 
@@ -36,7 +40,13 @@ public:
     const Scene& scene() const { return scene_; }
     const RayCounts& counts() const { return counts_; }
 
-    std::optional<SurfacePoint> intersect(const Ray& ray, RayKind kind);
+    std::optional<SurfacePoint> intersect(const Ray& ray, RayKind kind)
+    {
+        ++counts_.of(kind);
+        if (logging() || !is_traceable(ray)) [[unlikely]]
+            return intersect_with_log(ray, kind);
+        return scene_.intersect(ray);
+    }
     bool occluded(const Ray& ray);
     // Whether light from the sampled point arrives at `from`.
     bool visible(const SurfacePoint& from, const EmitterSample& light);
@@ -52,6 +62,8 @@ public:
     void log_contribution(PathEvent::Kind kind, const char* what, const Color& contribution);
 
 private:
+    std::optional<SurfacePoint> intersect_with_log(const Ray& ray, RayKind kind);
+
     const Scene& scene_;
     RayCounts counts_;
     bool failed_ = false;

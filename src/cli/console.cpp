@@ -37,6 +37,7 @@ void write_error(std::string_view text)
 void prepare_console()
 {
     std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGXFSZ, SIG_IGN); // a file-size limit is a write that fails, not the end
     for (const int stream : {0, 1, 2}) {
         if (fcntl(stream, F_GETFD) != -1) continue;
         // open() takes the lowest number that is free. Read-only: writing still fails, as it should.

@@ -23,6 +23,14 @@ private:
     Clock::time_point start_ = Clock::now();
 };
 
+// The same for every name of a file; empty if there is none.
+std::filesystem::path identity(const std::filesystem::path& file)
+{
+    std::error_code failed;
+    const auto path = std::filesystem::weakly_canonical(std::filesystem::absolute(file, failed), failed);
+    return failed ? std::filesystem::path() : path;
+}
+
 // Two names of one file that only the file system knows to be one are a usage error, too.
 void check_outputs(const std::vector<std::string>& outputs, const std::string& json)
 {
@@ -34,14 +42,24 @@ void check_outputs(const std::vector<std::string>& outputs, const std::string& j
     }
     std::vector<std::filesystem::path> seen;
     for (const std::string& file : files) {
-        std::error_code ignored;
-        const auto path =
-            std::filesystem::weakly_canonical(std::filesystem::absolute(file, ignored), ignored);
-        if (ignored || path.empty()) continue;
+        const std::filesystem::path path = identity(file);
+        if (path.empty()) continue;
         if (std::find(seen.begin(), seen.end(), path) != seen.end())
             throw UsageError(fmt::format("'{}' is to be written twice", file));
         seen.push_back(path);
     }
+}
+
+// What the scene was read from is not overwritten.
+void keep_inputs(const std::vector<std::filesystem::path>& inputs, std::vector<std::string> outputs,
+                 const std::string& json)
+{
+    if (!json.empty() && json != "-") outputs.push_back(json);
+    for (const std::string& output : outputs)
+        for (const std::filesystem::path& input : inputs)
+            if (const auto path = identity(output); !path.empty() && path == identity(input))
+                throw Error(
+                    fmt::format("cannot write '{}': the scene reads this file; write to another", output));
 }
 
 std::vector<std::string> default_outputs(const Options& options, const LoadedScene& scene)
@@ -98,6 +116,7 @@ void render_command(const Options& options)
     const std::vector<std::string> outputs =
         default_names ? default_outputs(options, scene) : options.outputs;
     if (default_names) check_outputs(outputs, options.json);
+    keep_inputs(scene.inputs, outputs, options.json);
 
     const RenderResult result = [&] {
         ProgressDisplay display(options.quiet);

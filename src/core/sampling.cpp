@@ -28,8 +28,11 @@ DiskPoint concentric_disk(Vec2f u)
     if (a == 0.f && b == 0.f) return {0.f, 0.f, 0.f};
     const bool wide = std::abs(a) > std::abs(b);
     const float radius = wide ? a : b;
-    const SinCos angle = sin_cos(wide ? quarter_pi * (b / a) : half_pi - quarter_pi * (a / b));
-    return {std::abs(radius), radius * angle.cos, radius * angle.sin};
+    const SinCos angle =
+        sin_cos_in_first_octant(quarter_pi * ((wide ? b : a) / radius)); // from the nearer axis
+    const float along = radius * angle.cos;
+    const float across = radius * angle.sin;
+    return {std::abs(radius), wide ? along : across, wide ? across : along};
 }
 
 Vec3f direction(float sine, float cosine, float u)
@@ -55,11 +58,6 @@ Vec3f square_to_cosine_hemisphere(Vec2f u)
 {
     const DiskPoint p = concentric_disk(u);
     return {p.x, p.y, std::sqrt((1.f - p.radius) * (1.f + p.radius))};
-}
-
-float cosine_hemisphere_pdf(const Vec3f& w)
-{
-    return std::max(w.z, 0.f) * inv_pi;
 }
 
 Vec3f square_to_uniform_hemisphere(Vec2f u)

@@ -30,12 +30,14 @@ public:
     {
         if (shape_ == nullptr)
             params.fail("area", "emitters need a surface: put it inside a <mesh> or <shape>");
+        else
+            has_solid_angle_ = shape_->has_solid_angle();
     }
 
     std::optional<EmitterSample> sample(const Vec3f& from, double u_select, Vec2f u,
                                         Measure measure) const override
     {
-        if (measure != Measure::area)
+        if (measure != Measure::area && has_solid_angle_)
             if (const std::optional<ShapeSample> point = shape_->sample_solid_angle(from, u))
                 return seen(from, *point, [](double, double) { return 1.0; });
         // Per unit solid angle = per unit area * distance^2 / cos.
@@ -50,7 +52,7 @@ public:
         const double cosine = -dot(direction, Vec3d(at->geometric_normal));
         if (!(cosine > 0.0)) return {};
         const Color radiance = radiance_->color(at->uv) * scale_;
-        if (measure != Measure::area)
+        if (measure != Measure::area && has_solid_angle_)
             if (const std::optional<float> pdf = shape_->solid_angle_pdf(from)) return {radiance, *pdf};
         const double distance2 = length_squared(Vec3d(at->position) - Vec3d(from));
         return {radiance, static_cast<float>(solid_angle_per_area(distance2, cosine) / shape_->area())};
@@ -59,7 +61,7 @@ public:
     // Radiance is the same in all directions: pi times its mean leaves each unit of area.
     float power() const override { return pi * shape_->area() * luminance(radiance_->mean() * scale_); }
 
-    bool has_solid_angle() const override { return shape_->has_solid_angle(); }
+    bool has_solid_angle() const override { return has_solid_angle_; }
 
 private:
     static double solid_angle_per_area(double distance2, double cosine) { return distance2 / cosine; }
@@ -72,24 +74,26 @@ private:
         const Vec3d towards = Vec3d(point.position) - Vec3d(from);
         const double distance2 = length_squared(towards);
         const double distance = std::sqrt(distance2);
-        const Vec3d wi = towards / distance;
+        const Vec3d wi = towards * (1.0 / distance);
         const double cosine = -dot(wi, Vec3d(point.normal));
-        if (!(distance > 0.0) || !(cosine > 0.0)) return std::nullopt;
+        std::optional<EmitterSample> sample;
+        if (!(distance > 0.0) || !(cosine > 0.0)) return sample;
 
-        EmitterSample sample;
-        sample.wi = Vec3f(wi);
-        sample.distance = static_cast<float>(distance);
-        sample.position = point.position;
-        sample.error = point.error;
-        sample.normal = point.normal;
-        sample.radiance = radiance_->color(point.uv) * scale_;
-        sample.pdf = static_cast<float>(point.pdf * jacobian(distance2, cosine));
+        sample.emplace();
+        sample->wi = Vec3f(wi);
+        sample->distance = static_cast<float>(distance);
+        sample->position = point.position;
+        sample->error = point.error;
+        sample->normal = point.normal;
+        sample->radiance = radiance_->color(point.uv) * scale_;
+        sample->pdf = static_cast<float>(point.pdf * jacobian(distance2, cosine));
         return sample;
     }
 
     std::shared_ptr<const Texture> radiance_;
     float scale_;
     const Shape* shape_;
+    bool has_solid_angle_ = false;
 };
 
 template std::unique_ptr<Emitter> build<AreaEmitter>(const Params&);

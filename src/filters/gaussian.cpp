@@ -3,6 +3,8 @@
 #include "filters/tabulated.h"
 #include "interfaces/plugin.h"
 
+#include <fmt/format.h>
+
 namespace plumb {
 
 /// A Gaussian that falls to 0 at the radius: f(x) = max(0, exp(-x^2 / 2s^2) - exp(-r^2 / 2s^2)) along each axis.
@@ -20,7 +22,12 @@ public:
         : radius_(params.number("radius", 2.f, Range{0.0, 16.0, true, false})),
           stddev_(params.number("stddev", 0.5f, Range{1e-3, 1e3, false, false})),
           profile_(radius_, [this](double x) { return evaluate_axis(x); })
-    {}
+    {
+        // Else the curve is so flat that nothing is left of it once its value at the end is taken off.
+        if (radius_ < 1e-4f * stddev_)
+            params.fail("radius", fmt::format("must be at least stddev / 10000, which is {:.4g}, not {}",
+                                              1e-4f * stddev_, radius_));
+    }
 
     float radius() const override { return radius_; }
 

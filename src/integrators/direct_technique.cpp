@@ -19,7 +19,7 @@ DirectTechnique::Kind kind_of(const Params& params, const char* name, DirectTech
 }
 
 // A point of a light as a ray would have met it, as far as its density depends on it.
-SurfacePoint surface_of(const Scene& scene, const LightSample& light)
+SurfacePoint surface_of(const Scene& scene, const EmitterSample& light)
 {
     SurfacePoint point;
     point.position = light.position;

@@ -43,8 +43,8 @@ namespace plumb {
 ///     indirect-warp       string    how the path goes on: cosine-hemisphere, uniform-hemisphere or none   (default none: cosine)
 ///     nSamples            integer   accepted and not used   (default 1)
 ///
-/// Shading normals: a direction counts only if the true surface agrees with the interpolated normal on whether it is
-/// reflected or transmitted. An emitter is met on its dark side too where emitters absorb.
+/// Shading normals: the interpolated normal decides what a surface does, the geometry only where the next ray starts. An
+/// emitter is met on its dark side too where emitters absorb.
 ///
 ///         <integrator type="path"/>
 ///         <integrator type="path">

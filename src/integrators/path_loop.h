@@ -48,7 +48,7 @@ template <class Technique>
 Color emitted(const Technique& technique, Tracer& tracer, const PathState& path, const Ray& ray,
               const std::optional<SurfacePoint>& hit)
 {
-    if (!technique.counts_emission(path)) return Color(0.f);
+    if ((hit && !hit->emitter) || !technique.counts_emission(path)) return Color(0.f);
     const EmitterValue light = tracer.scene().emission(path.from, ray.direction, hit ? &*hit : nullptr);
     if (light.radiance.is_black()) return Color(0.f);
     const float weight = path.discrete ? 1.f : technique.emission_weight(path, light.pdf);
@@ -97,8 +97,9 @@ Color trace_path(const Technique& technique, Tracer& tracer, Sampler& sampler, R
         if (bounces == technique.max_depth()) return end("the path has its largest depth"), result;
 
         const Vertex vertex(*hit, ray.direction);
-        result += scattered(technique, tracer, sampler, path, vertex);
+        // The next direction before the shadow ray: the processor works on both at once.
         const std::optional<BsdfSample> next = technique.scatter(sampler, vertex);
+        result += scattered(technique, tracer, sampler, path, vertex);
         if (!next) return end("the surface absorbs the path"), result;
         path.extend(*hit, *next);
         if (tracer.logging()) log_scatter(tracer, path, *next);

@@ -124,20 +124,24 @@ inline SinCosD rotate_quadrants(double sin, double cos, std::int64_t quadrant)
             std::bit_cast<double>(c ^ exchanged ^ negative_cos)};
 }
 
-// Sine and cosine with relative errors of 1e-11, for results that will be rounded to float. No float below 1e5 is
-// closer than 1e-9 to a multiple of pi/2 (but 0), so that 33 + 53 bits of pi/2 are enough.
+// Sine and cosine of |x| <= pi/4 with relative errors of 1e-11, for results that will be rounded to float.
+inline SinCosD sin_cos_near_zero_for_float(double x)
+{
+    static constexpr auto sin_terms = inverse_factorials<5>(3, 2, -1.0);
+    static constexpr auto cos_terms = inverse_factorials<6>(2, 2, -1.0);
+    const double x2 = x * x;
+    return {x - x * x2 * polynomial(sin_terms, x2), 1.0 - x2 * polynomial(cos_terms, x2)};
+}
+
+// The same of any x. No float below 1e5 is closer than 1e-9 to a multiple of pi/2 (but 0), so that 33 + 53 bits of
+// pi/2 are enough.
 inline SinCosD sin_cos_for_float(double x)
 {
     constexpr double half_pi_high = 0x1.921fb544p+0;
     constexpr double half_pi_low = 0x1.0b4611a626331p-34;
-    static constexpr auto sin_terms = inverse_factorials<5>(3, 2, -1.0);
-    static constexpr auto cos_terms = inverse_factorials<6>(2, 2, -1.0);
     const double k = std::floor(x * two_over_pi + 0.5);
-    const double r = (x - k * half_pi_high) - k * half_pi_low;
-    const double r2 = r * r;
-    const double sin = r - r * r2 * polynomial(sin_terms, r2);
-    const double cos = 1.0 - r2 * polynomial(cos_terms, r2);
-    return rotate_quadrants(sin, cos, static_cast<std::int64_t>(k));
+    const SinCosD r = sin_cos_near_zero_for_float((x - k * half_pi_high) - k * half_pi_low);
+    return rotate_quadrants(r.sin, r.cos, static_cast<std::int64_t>(k));
 }
 
 // atan of num / den for 0 <= num <= den, den > 0.
@@ -241,6 +245,12 @@ SinCos sin_cos(float x)
 {
     if (!std::isfinite(x)) return {static_cast<float>(not_a_number), static_cast<float>(not_a_number)};
     const SinCosD result = sin_cos_for_float(static_cast<double>(x));
+    return {static_cast<float>(result.sin), static_cast<float>(result.cos)};
+}
+
+SinCos sin_cos_in_first_octant(float x)
+{
+    const SinCosD result = sin_cos_near_zero_for_float(static_cast<double>(x));
     return {static_cast<float>(result.sin), static_cast<float>(result.cos)};
 }
 

@@ -4,6 +4,8 @@
 
 #include "scene/accel.h"
 
+#include <type_traits>
+
 namespace plumb {
 namespace {
 
@@ -12,6 +14,13 @@ SceneSphere bounding_sphere(const Box3f& bounds)
     if (bounds.isEmpty()) return {};
     return {bounds.center(), length(bounds.size()) * 0.5f};
 }
+
+// Converts to what the function returns: an optional that is given one builds its value where it stays.
+template <class Function>
+struct Elided {
+    Function function;
+    operator std::invoke_result_t<const Function&>() const { return function(); }
+};
 
 } // namespace
 
@@ -50,15 +59,16 @@ Scene::~Scene() = default;
 
 std::optional<SurfacePoint> Scene::intersect(const Ray& ray) const
 {
-    const std::optional<Accel::Hit> hit = accel_->intersect(ray);
-    if (!hit) return std::nullopt;
-    const SceneObject& object = objects_[hit->object];
-    SurfacePoint point = object.shape->surface_at(ray, hit->primitive);
-    point.primitive = hit->primitive;
-    point.shape = object.shape.get();
-    point.bsdf = object.bsdf.get();
-    point.emitter = object.emitter.get();
-    point.emitter_index = emitter_of_object_[hit->object];
+    std::optional<SurfacePoint> point;
+    if (const std::optional<Accel::Hit> hit = accel_->intersect(ray)) {
+        const SceneObject& object = objects_[hit->object];
+        point.emplace(Elided{[&] { return object.shape->surface_at(ray, hit->primitive); }});
+        point->primitive = hit->primitive;
+        point->shape = object.shape.get();
+        point->bsdf = object.bsdf.get();
+        point->emitter = object.emitter.get();
+        point->emitter_index = emitter_of_object_[hit->object];
+    }
     return point;
 }
 
@@ -76,34 +86,35 @@ Ray Scene::shadow_ray(const SurfacePoint& from, const EmitterSample& light)
     return {origin, target - origin, 0.f, one_minus_epsilon};
 }
 
-std::optional<LightSample> Scene::sample_emitter(const Vec3f& from, double u_choice, Vec2f u,
-                                                 Measure measure) const
+std::optional<EmitterSample> Scene::sample_emitter(const Vec3f& from, double u_choice, Vec2f u,
+                                                   Measure measure) const
 {
     if (!choice_.can_sample()) return std::nullopt;
     const DiscreteDistribution::Choice choice = choice_.sample(u_choice);
-    const Emitter& emitter = *emitters_[choice.index];
-    const std::optional<EmitterSample> sample = emitter.sample(from, choice.u, u, measure);
-    if (!sample) return std::nullopt;
-    LightSample light{*sample, &emitter};
-    light.pdf *= choice.probability;
-    // Infinite emitters overlap: the direction brings light from all of them, and any could have chosen it.
-    if (infinite_.size() > 1 && emitter.is_infinite() && !emitter.is_delta()) {
-        const EmitterValue all = emission(from, light.wi, nullptr, measure);
-        light.radiance = all.radiance;
-        light.pdf = all.pdf;
-    }
-    return light;
+    return sample_chosen(*emitters_[choice.index], choice, from, u, measure);
 }
 
-std::optional<LightSample> Scene::sample_delta_emitter(const Vec3f& from, double u_choice, Vec2f u) const
+std::optional<EmitterSample> Scene::sample_delta_emitter(const Vec3f& from, double u_choice, Vec2f u) const
 {
     if (!delta_choice_.can_sample()) return std::nullopt;
     const DiscreteDistribution::Choice choice = delta_choice_.sample(u_choice);
-    const Emitter& emitter = *emitters_[delta_[choice.index]];
-    const std::optional<EmitterSample> sample = emitter.sample(from, choice.u, u, Measure::best);
-    if (!sample) return std::nullopt;
-    LightSample light{*sample, &emitter};
-    light.pdf *= choice.probability;
+    return sample_chosen(*emitters_[delta_[choice.index]], choice, from, u, Measure::best);
+}
+
+std::optional<EmitterSample> Scene::sample_chosen(const Emitter& emitter,
+                                                  const DiscreteDistribution::Choice& choice,
+                                                  const Vec3f& from, Vec2f u, Measure measure) const
+{
+    std::optional<EmitterSample> light = emitter.sample(from, choice.u, u, measure);
+    if (!light) return light;
+    light->emitter = &emitter;
+    light->pdf *= choice.probability;
+    // Infinite emitters overlap: the direction brings light from all of them, and any could have chosen it.
+    if (infinite_.size() > 1 && emitter.is_infinite() && !emitter.is_delta()) {
+        const EmitterValue all = emission(from, light->wi, nullptr, measure);
+        light->radiance = all.radiance;
+        light->pdf = all.pdf;
+    }
     return light;
 }
 

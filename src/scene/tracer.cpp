@@ -32,9 +32,8 @@ RayCounts& RayCounts::operator+=(const RayCounts& other)
     return *this;
 }
 
-std::optional<SurfacePoint> Tracer::intersect(const Ray& ray, RayKind kind)
+std::optional<SurfacePoint> Tracer::intersect_with_log(const Ray& ray, RayKind kind)
 {
-    ++(kind == RayKind::camera ? counts_.camera : kind == RayKind::bounce ? counts_.bounce : counts_.shadow);
     if (!is_traceable(ray)) {
         failed_ = true;
         log(PathEvent::Kind::end, "a ray that is not finite: the sample does not count");

@@ -96,6 +96,13 @@ std::string input_hash(const Expansion& expansion, const LoadContext& context, c
     return hash.hex();
 }
 
+std::vector<std::filesystem::path> input_files(const Expansion& expansion, const LoadContext& context)
+{
+    std::vector<std::filesystem::path> files = context.files;
+    for (const auto& file : expansion.files) files.push_back(file->path());
+    return files;
+}
+
 // The root element must be a <scene>.
 bool check_root(const Element& root, Diagnostics& diagnostics)
 {
@@ -153,6 +160,7 @@ LoadedScene load_scene(const std::filesystem::path& path, const LoadOptions& opt
             .integrator = std::move(parts.integrator_type),
             .sampler = std::move(parts.sampler_type),
             .input_hash = std::move(hash),
+            .inputs = input_files(expansion, context),
             .warnings = in_file_order(diagnostics.all(), expansion.files),
             .parse_seconds = parse_seconds,
             .build_seconds = seconds_since(build_start)};

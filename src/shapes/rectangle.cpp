@@ -4,6 +4,8 @@
 #include "plumb/shape.h"
 #include "shapes/triangle.h"
 
+#include <fmt/format.h>
+
 namespace plumb {
 
 /// A flat rectangle; toWorld may make a parallelogram of it.
@@ -51,11 +53,18 @@ public:
         const double area = length(crossed);
         area_ = static_cast<float>(area);
         if (!(area_ > 0.f) || !std::isfinite(1.f / area_) || !std::isfinite(area_)) {
-            params.fail("toWorld", "leaves the rectangle an area that is no positive float number");
+            params.fail(
+                params.has("toWorld") ? "toWorld" : "width",
+                fmt::format(
+                    "gives the rectangle area {:.6g}, which must be positive and a number that a float "
+                    "can hold; scale the scene",
+                    area));
             return;
         }
+        area_pdf_ = 1.f / area_;
         normal_ = Vec3f(crossed / area);
         if (dot(normal_, to_world.normal(unit_normal)) < 0.f) normal_ = -normal_;
+        shading_ = Frame(normal_);
         const Vec3f error1 = triangle_error(triangle(0), area);
         const Vec3f error2 = triangle_error(triangle(1), area);
         error_ =
@@ -76,7 +85,7 @@ public:
         at.position = triangle_point(t, b);
         at.error = error_;
         at.geometric_normal = normal_;
-        at.shading = Frame(normal_);
+        at.shading = shading_;
         at.uv = primitive == 0 ? Vec2f(both, second) : Vec2f(first, both);
         at.primitive = primitive;
         return at;
@@ -89,7 +98,7 @@ public:
         const double x = u.x;
         const double y = u.y;
         const Barycentric b = lower ? Barycentric{x - y, y} : Barycentric{x, y - x};
-        return {triangle_point(triangle(lower ? 0 : 1), b), error_, normal_, u, 1.f / area_};
+        return {triangle_point(triangle(lower ? 0 : 1), b), error_, normal_, u, area_pdf_};
     }
 
     float area() const override { return area_; }
@@ -121,7 +130,9 @@ private:
     std::array<Vec3f, 4> corners_; // at uv = (0, 0), (1, 0), (1, 1), (0, 1)
     Vec3f normal_{0.f, 0.f, 1.f};
     Vec3f error_{0.f};
+    Frame shading_;
     float area_ = 1.f;
+    float area_pdf_ = 1.f;
 };
 
 template std::unique_ptr<Shape> build<Rectangle>(const Params&);

@@ -10,6 +10,8 @@
 
 #include <utility>
 
+#include <fmt/format.h>
+
 namespace plumb {
 
 /// A sphere, intersected exactly (not as triangles). Its front side is the outside.
@@ -42,7 +44,12 @@ public:
         area_ = 4.f * pi * sqr(radius_);
         to_object_ = to_world.inverse();
         if (!is_finite(center_) || !std::isfinite(area_) || !std::isfinite(1.f / area_))
-            params.fail("toWorld", "leaves the sphere a centre or an area that float numbers cannot tell");
+            params.fail(
+                params.has("toWorld") ? "toWorld" : "radius",
+                fmt::format(
+                    "gives the sphere radius {:.6g}: its centre and area must be numbers that a float "
+                    "can hold; scale the scene",
+                    radius_));
     }
 
     void add_to(AccelBuilder& builder) const override { builder.add_sphere(center_, radius_); }

@@ -65,8 +65,8 @@ public:
         SurfacePoint at;
         at.position = triangle_point(t, b);
         at.error = triangle_error(t, normal_length);
-        at.geometric_normal =
-            normal_length > 0.0 ? front_normal(primitive, normal / normal_length) : normalize(-ray.direction);
+        at.geometric_normal = normal_length > 0.0 ? front_normal(primitive, normal * (1.0 / normal_length))
+                                                  : normalize(-ray.direction);
         at.shading = Frame(shading_normal(primitive, b, at.geometric_normal));
         at.uv = uv(primitive, b);
         at.primitive = primitive;
@@ -82,7 +82,7 @@ public:
         const Vec3d normal = triangle_cross(t);
         const double normal_length = length(normal);
         return {triangle_point(t, b), triangle_error(t, normal_length),
-                front_normal(primitive, normal / normal_length), uv(primitive, b), 1.f / area_};
+                front_normal(primitive, normal * (1.0 / normal_length)), uv(primitive, b), 1.f / area_};
     }
 
     float area() const override { return area_; }

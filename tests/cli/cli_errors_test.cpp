@@ -48,6 +48,8 @@ TEST_CASE("a wrong scene exits with 1, says where, and writes nothing", "[cli][e
                ContainsSubstring("error: the crop 40,0,9,1 is not inside the picture of 48x36 pixels\n"));
     CHECK_THAT(complaint({"scene.xml", "--integrator", "path_miss"}),
                ContainsSubstring("did you mean 'path_mis'?"));
+    CHECK_THAT(complaint({"scene.xml", "--integrator", "photonmapper"}),
+               ContainsSubstring("integrator 'photonmapper' is not supported; use 'path_mis'"));
 
     folder.write("bad.xml",
                  small_scene(R"(<integrator type="path_mis"><float name="rrDeph" value="3"/></integrator>)"));
@@ -57,6 +59,20 @@ TEST_CASE("a wrong scene exits with 1, says where, and writes nothing", "[cli][e
                    "  <integrator type=\"path_mis\"><float name=\"rrDeph\" value=\"3\"/></integrator>\n"
                    "                                           ^~~~~~\n");
     CHECK(folder.run({"bad.xml", "--lenient", "-o", "lenient.exr"}).exit_code == 0);
+}
+
+TEST_CASE("what a scene is read from is not overwritten", "[cli][errors]")
+{
+    const SceneFolder folder;
+    folder.write("part.xml", small_scene());
+    folder.write("main.xml", "<scene dialect=\"plumb\"><include filename=\"part.xml\"/></scene>");
+    const Names before = folder.files();
+    const std::string part = read_bytes(folder / "part.xml");
+    const RunResult result = folder.run({"main.xml", "-o", "a.exr", "--json", "./part.xml"});
+    CHECK(result.exit_code == 1);
+    CHECK_THAT(result.err, ContainsSubstring("error: cannot write './part.xml': the scene reads this file"));
+    CHECK(read_bytes(folder / "part.xml") == part);
+    CHECK(folder.files() == before);
 }
 
 TEST_CASE("an output that cannot be written is found out before rendering", "[cli][errors]")

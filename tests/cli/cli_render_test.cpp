@@ -95,6 +95,22 @@ TEST_CASE("a crop is that part of the whole, bit for bit", "[cli][render]")
     CHECK(different == 0);
 }
 
+TEST_CASE("a crop and a replay need no memory for the whole picture", "[cli][render]")
+{
+    const SceneFolder folder;
+    const Names huge = {"scene.xml", "--spp", "1", "--size", "65535x65535"};
+    Names crop = huge, replay = huge;
+    crop.insert(crop.end(), {"--crop", "65000,40,3,2", "-o", "crop.exr"});
+    REQUIRE(folder.run(crop).exit_code == 0);
+    const Image image = read_image(folder / "crop.exr", false);
+    CHECK(image.data_window() == PixelRect{65000, 40, 3, 2});
+    CHECK(image.full_width() == 65535);
+    CHECK(image.full_height() == 65535);
+    replay.insert(replay.begin(), "replay");
+    replay.insert(replay.end(), {"--pixel", "65000,40", "--sample", "0"});
+    CHECK(folder.run(replay).exit_code == 0);
+}
+
 TEST_CASE("options change the scene", "[cli][render]")
 {
     const SceneFolder folder;

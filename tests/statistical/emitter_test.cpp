@@ -120,7 +120,7 @@ void check_samples(const std::string& name, const Lamp& lamp, const Vec3f& from,
 void check_irradiance(const std::string& name, const Lamp& lamp, double expected, Measure measure,
                       const Vec3f& from = Vec3f(0.f))
 {
-    constexpr std::size_t tests = 10; // calls of this function
+    constexpr std::size_t tests = 13; // calls of this function
     const auto estimate = [&](std::uint64_t samples, std::uint64_t seed) {
         TestRandom random(seed);
         MeanAndVariance irradiance;
@@ -214,6 +214,26 @@ TEST_CASE("light of area emitters arrives in its closed form", "[statistical][em
     const Lamp halves(panel(Vec3f(0, 2, 0), 2.0, 2.0, Vec3f(0, -1, 0)), two_tone);
     check_irradiance("textured rectangle", halves, pi_d * (3.0 + 15.0) * 2.0 * corner_factor(1, 1, 2),
                      Measure::best);
+    // A mesh with the same halves, [-1, 1] and [1, 3] along x.
+    const Lamp wide(mesh("v -1 2 -1\nv 3 2 -1\nv 3 2 1\nv -1 2 1\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+                         "f 1/1 2/2 3/3 4/4\n"),
+                    two_tone);
+    const double dim = 4.0 * corner_factor(1, 1, 2);
+    const double bright = 2.0 * (corner_factor(3, 1, 2) - corner_factor(1, 1, 2));
+    check_irradiance("textured mesh", wide, pi_d * (3.0 * dim + 15.0 * bright), Measure::best);
+    // A sphere above, turned so that u = 1/2 is the border between left and right: half of each is seen.
+    const Lamp turned(ParamsBuilder("shape", "sphere")
+                          .number("radius", 0.5)
+                          .transform("toWorld", Transform::translate(Vec3d(0, 3, 0)) *
+                                                    Transform::rotate(Vec3d(0, 0, 1), 90.0))
+                          .build<Sphere, Shape>(),
+                      two_tone);
+    const Vec3f right = normalize(Vec3f(0.05f, 1, 0)), left = normalize(Vec3f(-0.05f, 1, 0));
+    CHECK(turned.look(Vec3f(0.f), right, Measure::best).radiance.r == Approx(3.0));
+    CHECK(turned.look(Vec3f(0.f), left, Measure::best).radiance.r == Approx(15.0));
+    const double both = pi_d * (3.0 + 15.0) / 2.0 * (0.25 / 9.0);
+    check_irradiance("textured sphere by solid angle", turned, both, Measure::solid_angle);
+    check_irradiance("textured sphere by area", turned, both, Measure::area);
 }
 
 } // namespace plumb::test

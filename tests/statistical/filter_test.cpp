@@ -66,6 +66,12 @@ std::vector<FilterCase> filter_cases()
                      [](double x) { return std::max(0.0, 1.0 - std::abs(x)); }, 1.0});
     cases.push_back(
         {"box", ParamsBuilder("rfilter", "box").build<BoxFilter, Filter>(), [](double) { return 1.0; }, 0.5});
+    cases.push_back({"tent, other radius",
+                     ParamsBuilder("rfilter", "tent").number("radius", 2.5).build<TentFilter, Filter>(),
+                     [](double x) { return std::max(0.0, 1.0 - std::abs(x) / 2.5); }, 2.5});
+    cases.push_back({"box, other radius",
+                     ParamsBuilder("rfilter", "box").number("radius", 1.25).build<BoxFilter, Filter>(),
+                     [](double) { return 1.0; }, 1.25});
     return cases;
 }
 

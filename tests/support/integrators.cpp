@@ -71,7 +71,7 @@ std::vector<NamedParams> path_tracers(int max_depth, bool with_area)
                                                    .string("direct-warp", warp));
     }
     if (!with_area) return result;
-    add("path_nee", integrator_params("path_nee"));
+    add("path_nee", integrator_params("path_nee").integer("rrDepth", 2));
     add("explicit by area",
         configured(true).string("direct-measure", "area").string("indirect-warp", "cosine-hemisphere"));
     return result;
@@ -89,19 +89,21 @@ std::vector<NamedParams> direct_light_integrators(bool with_solid_angle)
                           integrator_params("direct").string("measure", measure).integer("nSamples", 2)});
         for (const std::string& other : measures) {
             if (measure == other) continue;
-            const char* heuristic = measure < other ? "power" : "balance";
-            result.push_back(
-                {"direct-mis by " + measure + " and " + other, integrator_params("direct-mis")
-                                                                   .string("measure1", measure)
-                                                                   .string("measure2", other)
-                                                                   .integer("nSamples1", 2)
-                                                                   .string("warp-type2", "uniform-hemisphere")
-                                                                   .string("heuristic", heuristic)});
+            // Each order of the two has parameters of its own.
+            const bool sorted = measure < other;
+            result.push_back({"direct-mis by " + measure + " and " + other,
+                              integrator_params("direct-mis")
+                                  .string("measure1", measure)
+                                  .string("measure2", other)
+                                  .integer(sorted ? "nSamples1" : "nSamples2", sorted ? 2 : 3)
+                                  .string(sorted ? "warp-type2" : "warp-type1", "uniform-hemisphere")
+                                  .string("heuristic", sorted ? "power" : "balance")});
         }
     }
     result.push_back({"direct by uniform hemisphere", integrator_params("direct")
                                                           .string("measure", "hemisphere")
                                                           .string("warp-type", "uniform-hemisphere")});
+    result.push_back({"path_ems of one bounce", integrator_params("path_ems").integer("maxDepth", 1)});
     if (with_solid_angle)
         result.push_back({"explicit path of one bounce, by solid angle",
                           configured_path(true, "max-depth", 1).string("direct-measure", "solid-angle")});

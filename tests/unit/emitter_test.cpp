@@ -38,9 +38,10 @@ TEST_CASE("light of point and directional emitters arrives in its closed form", 
     CHECK((lamp->is_delta() && !lamp->is_infinite()));
 
     const auto by_power = ParamsBuilder("emitter", "point")
+                              .point("position", Vec3f(0, 0, 5))
                               .color("power", Color(static_cast<float>(4.0 * pi_d)))
                               .build<PointEmitter, Emitter>();
-    CHECK(radiance(*by_power, Vec3f(0, 0, 2)).radiance.r == Approx(0.25)); // power / (4 pi d^2)
+    CHECK(radiance(*by_power, Vec3f(0, 0, 3)).radiance.r == Approx(0.25)); // power / (4 pi d^2)
     CHECK(by_power->power() == Approx(4.0 * pi_d).epsilon(1e-5));
 
     const auto sun = ParamsBuilder("emitter", "directional")

@@ -286,14 +286,15 @@ TEST_CASE("files are found beside the scene file", "[unit][params]")
     CHECK(given((folder.path() / "mesh.obj").string()).file("filename") == folder.path() / "mesh.obj");
     CHECK(diagnostics.all().empty());
 
-    const Params missing = given("mesh.obj");
-    missing.file("filename");
-    CHECK(missing.missing_file());
-    CHECK(missing.files().empty());
-    const Params is_folder = given("..");
-    is_folder.file("filename");
-    REQUIRE(diagnostics.all().size() == 2);
-    CHECK(diagnostics.all()[0].message == "filename names a file that does not exist: '" +
-                                              (folder.path() / "sub" / "mesh.obj").string() + "'");
+    for (const char* wrong : {"mesh.obj", "..", "/dev/zero"}) {
+        const Params params = given(wrong);
+        params.file("filename");
+        CHECK((params.missing_file() && params.files().empty()));
+    }
+    const std::string missing = (folder.path() / "sub" / "mesh.obj").string();
+    REQUIRE(diagnostics.all().size() == 3);
+    CHECK(diagnostics.all()[0].message == "filename names a file that does not exist: '" + missing + "'");
     CHECK_THAT(diagnostics.all()[1].message, ContainsSubstring("filename is a folder, not a file: '"));
+    CHECK_THAT(diagnostics.all()[2].message,
+               ContainsSubstring("is a device, a pipe or the like, not a file"));
 }
