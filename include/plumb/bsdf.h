@@ -65,7 +65,7 @@ public:
     virtual Lobes lobes() const = 0;
     virtual BsdfValue evaluate(const SurfacePoint& at, const Vec3f& wi, const Vec3f& wo) const = 0;
     virtual std::optional<BsdfSample> sample(const SurfacePoint& at, const Vec3f& wi, float u_lobe,
-                                             Vec2f u) const = 0;
+                                             const Vec2f& u) const = 0;
 };
 
 } // namespace plumb

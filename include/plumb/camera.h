@@ -20,7 +20,7 @@ struct CameraRay {
 class Camera {
 public:
     virtual ~Camera() = default;
-    virtual CameraRay sample_ray(Vec2f raster, Vec2f u_lens) const = 0;
+    virtual CameraRay sample_ray(const Vec2f& raster, const Vec2f& u_lens) const = 0;
     virtual Vec2i resolution() const = 0;
     virtual const Transform& to_world() const = 0;
 };

@@ -50,7 +50,7 @@ public:
     virtual void prepare(const SceneSphere&) {}
 
     // Nothing where no light can arrive at `from` (behind a one-sided lamp, say).
-    virtual std::optional<EmitterSample> sample(const Vec3f& from, double u_select, Vec2f u,
+    virtual std::optional<EmitterSample> sample(const Vec3f& from, double u_select, const Vec2f& u,
                                                 Measure measure) const = 0;
 
     // What a ray from `from` along unit wi sees of this emitter: at the surface point `at` for area lights, or with

@@ -21,8 +21,8 @@ class Filter {
 public:
     virtual ~Filter() = default;
     virtual float radius() const = 0;
-    virtual float evaluate(Vec2f offset) const = 0; // not normalised; 0 beyond the radius
-    virtual FilterSample sample(Vec2f u) const = 0;
+    virtual float evaluate(const Vec2f& offset) const = 0; // not normalised; 0 beyond the radius
+    virtual FilterSample sample(const Vec2f& u) const = 0;
 };
 
 } // namespace plumb

@@ -20,8 +20,8 @@ public:
     float g1(const Vec3f& v, const Vec3f& wh) const;
     float g(const Vec3f& wi, const Vec3f& wo, const Vec3f& wh) const { return g1(wi, wh) * g1(wo, wh); }
 
-    Vec3f sample(Vec2f u) const;      // [Walter 2007], equations 28 and 29
-    float pdf(const Vec3f& wh) const; // D(wh) cos(wh), per unit solid angle of wh
+    Vec3f sample(const Vec2f& u) const; // [Walter 2007], equations 28 and 29
+    float pdf(const Vec3f& wh) const;   // D(wh) cos(wh), per unit solid angle of wh
 
 private:
     float alpha_;

@@ -44,9 +44,10 @@ public:
 
     // A point of one emitter, chosen by u_choice (which is used up: what is left of it selects a part of the
     // emitter), among all or among point and directional lights alone. pdf includes the choice.
-    std::optional<EmitterSample> sample_emitter(const Vec3f& from, double u_choice, Vec2f u,
+    std::optional<EmitterSample> sample_emitter(const Vec3f& from, double u_choice, const Vec2f& u,
                                                 Measure measure = Measure::best) const;
-    std::optional<EmitterSample> sample_delta_emitter(const Vec3f& from, double u_choice, Vec2f u) const;
+    std::optional<EmitterSample> sample_delta_emitter(const Vec3f& from, double u_choice,
+                                                      const Vec2f& u) const;
     // What a ray from `from` along unit wi sees: the emitter of the surface it hit or, with hit == nullptr, all
     // infinite emitters. pdf: as sample_emitter would have chosen it. Black where nothing is emitted.
     EmitterValue emission(const Vec3f& from, const Vec3f& wi, const SurfacePoint* hit,
@@ -65,7 +66,7 @@ private:
     class Accel;
     std::optional<EmitterSample> sample_chosen(const Emitter& emitter,
                                                const DiscreteDistribution::Choice& choice, const Vec3f& from,
-                                               Vec2f u, Measure measure) const;
+                                               const Vec2f& u, Measure measure) const;
 
     SceneOptions options_;
     std::vector<SceneObject> objects_;

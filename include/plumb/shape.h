@@ -44,11 +44,11 @@ public:
     virtual SurfacePoint surface_at(const Ray& ray, std::uint32_t primitive) const = 0;
 
     // Uniform over the area; pdf = 1 / area().
-    virtual ShapeSample sample_area(double u_select, Vec2f u) const = 0;
+    virtual ShapeSample sample_area(double u_select, const Vec2f& u) const = 0;
 
     // Uniform over the solid angle that the shape subtends at `from`; nothing where the shape cannot do that from
     // there (inside a sphere, say; a mesh never can). pdf per unit solid angle.
-    virtual std::optional<ShapeSample> sample_solid_angle(const Vec3f& from, Vec2f u) const;
+    virtual std::optional<ShapeSample> sample_solid_angle(const Vec3f& from, const Vec2f& u) const;
     // The density of sample_solid_angle(from), constant over the visible part; nothing where that returns nothing.
     virtual std::optional<float> solid_angle_pdf(const Vec3f& from) const;
     // Whether sample_solid_angle ever returns something.

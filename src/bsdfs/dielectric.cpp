@@ -30,7 +30,7 @@ public:
     BsdfValue evaluate(const SurfacePoint&, const Vec3f&, const Vec3f&) const override { return {}; }
 
     std::optional<BsdfSample> sample(const SurfacePoint&, const Vec3f& wi, float u_lobe,
-                                     Vec2f /*u*/) const override
+                                     const Vec2f& /*u*/) const override
     {
         if (wi.z == 0.f) return std::nullopt;
         const auto [reflectance, cos_t, ratio] = fresnel_dielectric(wi.z, eta_);

@@ -29,7 +29,7 @@ public:
     }
 
     std::optional<BsdfSample> sample(const SurfacePoint& at, const Vec3f& wi, float /*u_lobe*/,
-                                     Vec2f u) const override
+                                     const Vec2f& u) const override
     {
         if (!(wi.z > 0.f)) return std::nullopt;
         const Vec3f wo = square_to_cosine_hemisphere(u);

@@ -48,7 +48,7 @@ public:
 
     // Either lobe is black where its chance, ks or 1 - ks, is 0.
     std::optional<BsdfSample> sample(const SurfacePoint& at, const Vec3f& wi, float u_lobe,
-                                     Vec2f u) const override
+                                     const Vec2f& u) const override
     {
         if (!(wi.z > 0.f)) return std::nullopt;
         const bool glossy = u_lobe < ks_;

@@ -19,7 +19,7 @@ public:
     BsdfValue evaluate(const SurfacePoint&, const Vec3f&, const Vec3f&) const override { return {}; }
 
     std::optional<BsdfSample> sample(const SurfacePoint&, const Vec3f& wi, float /*u_lobe*/,
-                                     Vec2f /*u*/) const override
+                                     const Vec2f& /*u*/) const override
     {
         if (!(wi.z > 0.f)) return std::nullopt;
         return BsdfSample{Vec3f(-wi.x, -wi.y, wi.z), Color(1.f), 1.f, Lobe::delta_reflection, 1.f};

@@ -37,7 +37,7 @@ public:
     }
 
     std::optional<BsdfSample> sample(const SurfacePoint& at, const Vec3f& wi, float /*u_lobe*/,
-                                     Vec2f u) const override
+                                     const Vec2f& u) const override
     {
         if (!(wi.z > 0.f)) return std::nullopt;
         const Beckmann microfacets = beckmann_at(*alpha_, at.uv);

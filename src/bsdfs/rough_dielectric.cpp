@@ -47,7 +47,7 @@ public:
     }
 
     std::optional<BsdfSample> sample(const SurfacePoint& at, const Vec3f& wi, float u_lobe,
-                                     Vec2f u) const override
+                                     const Vec2f& u) const override
     {
         if (wi.z == 0.f) return std::nullopt;
         const Color ka = ka_->color(at.uv);

@@ -41,7 +41,7 @@ public:
     }
 
     std::optional<BsdfSample> sample(const SurfacePoint& at, const Vec3f& wi, float u_lobe,
-                                     Vec2f u) const override
+                                     const Vec2f& u) const override
     {
         if (!(wi.z > 0.f)) return std::nullopt;
         const Material here = material(at, wi);

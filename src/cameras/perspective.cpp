@@ -69,7 +69,7 @@ public:
         read_lens(params);
     }
 
-    CameraRay sample_ray(Vec2f raster, Vec2f u_lens) const override
+    CameraRay sample_ray(const Vec2f& raster, const Vec2f& u_lens) const override
     {
         // The point of the plane z = 1 seen through this place of the picture; row 0 is up, column 0 is left.
         const Vec3d towards(half_width_ - raster.x * pixel_width_, half_height_ - raster.y * pixel_height_,

@@ -30,7 +30,7 @@ float Beckmann::g1(const Vec3f& v, const Vec3f& wh) const
     return (3.535f * a + 2.181f * sqr(a)) / (1.f + 2.276f * a + 2.577f * sqr(a)); // [1], equation 27
 }
 
-Vec3f Beckmann::sample(Vec2f u) const
+Vec3f Beckmann::sample(const Vec2f& u) const
 {
     const float tan_squared = -sqr(alpha_) * log(1.f - u.x); // [1], equation 28
     const float cosine = 1.f / std::sqrt(1.f + tan_squared);

@@ -19,7 +19,7 @@ struct DiskPoint {
     float y;
 };
 
-DiskPoint concentric_disk(Vec2f u)
+DiskPoint concentric_disk(const Vec2f& u)
 {
     // [1]: each quarter of the square becomes a quarter of the disk, squares about the centre become circles. A
     // negative radius turns the opposite quarter's angles by pi.
@@ -43,7 +43,7 @@ Vec3f direction(float sine, float cosine, float u)
 
 } // namespace
 
-Vec2f square_to_concentric_disk(Vec2f u)
+Vec2f square_to_concentric_disk(const Vec2f& u)
 {
     const DiskPoint p = concentric_disk(u);
     return {p.x, p.y};
@@ -54,13 +54,13 @@ float concentric_disk_pdf(const Vec2f& p)
     return sqr(p.x) + sqr(p.y) <= 1.f ? inv_pi : 0.f;
 }
 
-Vec3f square_to_cosine_hemisphere(Vec2f u)
+Vec3f square_to_cosine_hemisphere(const Vec2f& u)
 {
     const DiskPoint p = concentric_disk(u);
     return {p.x, p.y, std::sqrt((1.f - p.radius) * (1.f + p.radius))};
 }
 
-Vec3f square_to_uniform_hemisphere(Vec2f u)
+Vec3f square_to_uniform_hemisphere(const Vec2f& u)
 {
     return direction(std::sqrt(u.x * (2.f - u.x)), 1.f - u.x, u.y);
 }
@@ -70,7 +70,7 @@ float uniform_hemisphere_pdf(const Vec3f& w)
     return w.z > 0.f ? inv_two_pi : 0.f;
 }
 
-Vec3f square_to_uniform_sphere(Vec2f u)
+Vec3f square_to_uniform_sphere(const Vec2f& u)
 {
     return direction(2.f * std::sqrt(u.x * (1.f - u.x)), 1.f - 2.f * u.x, u.y);
 }
@@ -80,7 +80,7 @@ float uniform_sphere_pdf()
     return 0.25f * inv_pi;
 }
 
-Vec3f square_to_uniform_cone(Vec2f u, float one_minus_cos)
+Vec3f square_to_uniform_cone(const Vec2f& u, float one_minus_cos)
 {
     const float height = u.x * one_minus_cos;
     return direction(std::sqrt(height * (2.f - height)), 1.f - height, u.y);
@@ -91,13 +91,13 @@ float uniform_cone_pdf(float one_minus_cos)
     return inv_two_pi / one_minus_cos;
 }
 
-Vec2f square_to_triangle(Vec2f u)
+Vec2f square_to_triangle(const Vec2f& u)
 {
     const float root = std::sqrt(1.f - u.x);
     return {1.f - root, u.y * root};
 }
 
-Vec3f square_to_cosine_power(Vec2f u, float exponent)
+Vec3f square_to_cosine_power(const Vec2f& u, float exponent)
 {
     // cos = (1 - u)^(1 / (exponent + 1)), in double precision: 1 - cos is small for large exponents.
     const double cosine = exp(log(1.0 - static_cast<double>(u.x)) / (static_cast<double>(exponent) + 1.0));

@@ -34,7 +34,7 @@ public:
             has_solid_angle_ = shape_->has_solid_angle();
     }
 
-    std::optional<EmitterSample> sample(const Vec3f& from, double u_select, Vec2f u,
+    std::optional<EmitterSample> sample(const Vec3f& from, double u_select, const Vec2f& u,
                                         Measure measure) const override
     {
         if (measure != Measure::area && has_solid_angle_)
@@ -76,17 +76,16 @@ private:
         const double distance = std::sqrt(distance2);
         const Vec3d wi = towards * (1.0 / distance);
         const double cosine = -dot(wi, Vec3d(point.normal));
-        std::optional<EmitterSample> sample;
-        if (!(distance > 0.0) || !(cosine > 0.0)) return sample;
+        if (!(distance > 0.0) || !(cosine > 0.0)) return std::nullopt;
 
-        sample.emplace();
-        sample->wi = Vec3f(wi);
-        sample->distance = static_cast<float>(distance);
-        sample->position = point.position;
-        sample->error = point.error;
-        sample->normal = point.normal;
-        sample->radiance = radiance_->color(point.uv) * scale_;
-        sample->pdf = static_cast<float>(point.pdf * jacobian(distance2, cosine));
+        EmitterSample sample;
+        sample.wi = Vec3f(wi);
+        sample.distance = static_cast<float>(distance);
+        sample.position = point.position;
+        sample.error = point.error;
+        sample.normal = point.normal;
+        sample.radiance = radiance_->color(point.uv) * scale_;
+        sample.pdf = static_cast<float>(point.pdf * jacobian(distance2, cosine));
         return sample;
     }
 

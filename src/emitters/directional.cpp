@@ -34,7 +34,7 @@ public:
         scene_radius_ = sphere.radius > 0.f ? sphere.radius : 1.f;
     }
 
-    std::optional<EmitterSample> sample(const Vec3f& /*from*/, double /*u_select*/, Vec2f /*u*/,
+    std::optional<EmitterSample> sample(const Vec3f& /*from*/, double /*u_select*/, const Vec2f& /*u*/,
                                         Measure /*measure*/) const override
     {
         EmitterSample sample;

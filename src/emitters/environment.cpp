@@ -56,7 +56,7 @@ public:
 
     void prepare(const SceneSphere& sphere) override { radius_ = sphere.radius > 0.f ? sphere.radius : 1.f; }
 
-    std::optional<EmitterSample> sample(const Vec3f& from, double u_select, Vec2f u,
+    std::optional<EmitterSample> sample(const Vec3f& from, double u_select, const Vec2f& u,
                                         Measure measure) const override
     {
         const Vec3f wi = bitmap_ ? sample_direction(u_select, u) : square_to_uniform_sphere(u);

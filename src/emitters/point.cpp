@@ -26,7 +26,7 @@ public:
           intensity_(read_intensity(params))
     {}
 
-    std::optional<EmitterSample> sample(const Vec3f& from, double /*u_select*/, Vec2f /*u*/,
+    std::optional<EmitterSample> sample(const Vec3f& from, double /*u_select*/, const Vec2f& /*u*/,
                                         Measure /*measure*/) const override
     {
         const Vec3d towards = Vec3d(position_) - Vec3d(from);

@@ -19,12 +19,12 @@ public:
 
     float radius() const override { return radius_; }
 
-    float evaluate(Vec2f offset) const override
+    float evaluate(const Vec2f& offset) const override
     {
         return std::abs(offset.x) <= radius_ && std::abs(offset.y) <= radius_ ? 1.f : 0.f;
     }
 
-    FilterSample sample(Vec2f u) const override
+    FilterSample sample(const Vec2f& u) const override
     {
         return {{(2.f * u.x - 1.f) * radius_, (2.f * u.y - 1.f) * radius_}, 1.f};
     }

@@ -26,12 +26,12 @@ public:
 
     float radius() const override { return radius_; }
 
-    float evaluate(Vec2f offset) const override
+    float evaluate(const Vec2f& offset) const override
     {
         return static_cast<float>(evaluate_axis(offset.x) * evaluate_axis(offset.y));
     }
 
-    FilterSample sample(Vec2f u) const override { return profile_.sample(u); }
+    FilterSample sample(const Vec2f& u) const override { return profile_.sample(u); }
 
 private:
     double evaluate_axis(double offset) const

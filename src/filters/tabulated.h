@@ -46,7 +46,7 @@ public:
         return {left ? -x : x, negative_[choice.index] ? -weight_ : weight_};
     }
 
-    FilterSample sample(Vec2f u) const
+    FilterSample sample(const Vec2f& u) const
     {
         const Draw x = sample(u.x);
         const Draw y = sample(u.y);

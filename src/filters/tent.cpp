@@ -19,13 +19,13 @@ public:
 
     float radius() const override { return radius_; }
 
-    float evaluate(Vec2f offset) const override
+    float evaluate(const Vec2f& offset) const override
     {
         return std::max(0.f, 1.f - std::abs(offset.x) / radius_) *
                std::max(0.f, 1.f - std::abs(offset.y) / radius_);
     }
 
-    FilterSample sample(Vec2f u) const override { return {{sample_axis(u.x), sample_axis(u.y)}, 1.f}; }
+    FilterSample sample(const Vec2f& u) const override { return {{sample_axis(u.x), sample_axis(u.y)}, 1.f}; }
 
 private:
     // The inverse of the tent's cumulative distribution, half by half.

@@ -30,10 +30,15 @@ Heuristic heuristic_of(const Params& params)
 
 float mis_weight(Heuristic heuristic, float mine, float other)
 {
-    return heuristic == Heuristic::power ? power_heuristic(mine, other) : balance_heuristic(mine, other);
+    switch (heuristic) {
+    case Heuristic::none: return 1.f;
+    case Heuristic::balance: return balance_heuristic(mine, other);
+    case Heuristic::power: return power_heuristic(mine, other);
+    }
+    return 1.f;
 }
 
-Color light_through(Tracer& tracer, const Vertex& vertex, const EmitterSample& light, const BsdfValue& value,
+Color light_through(Tracer& tracer, const Vertex& vertex, const EmitterSample& light, BsdfValue value,
                     float weight)
 {
     const Color contribution = value.f_cos * light.radiance * (weight / light.pdf);
@@ -45,8 +50,7 @@ Color light_through(Tracer& tracer, const Vertex& vertex, const EmitterSample& l
     return Color(0.f);
 }
 
-Color light_from_one_emitter(Tracer& tracer, Sampler& sampler, const Vertex& vertex,
-                             std::optional<Heuristic> heuristic)
+Color light_from_one_emitter(Tracer& tracer, Sampler& sampler, const Vertex& vertex, Heuristic heuristic)
 {
     if (!vertex.has_smooth_lobes()) return Color(0.f);
     const double u_choice = sampler.next_choice();
@@ -54,9 +58,8 @@ Color light_from_one_emitter(Tracer& tracer, Sampler& sampler, const Vertex& ver
     const auto light = tracer.scene().sample_emitter(vertex.at().position, u_choice, u);
     if (!light) return Color(0.f);
     const BsdfValue value = vertex.evaluate(light->wi);
-    const bool shared = heuristic && !light->is_delta;
-    return light_through(tracer, vertex, *light, value,
-                         shared ? mis_weight(*heuristic, light->pdf, value.pdf) : 1.f);
+    const float weight = light->is_delta ? 1.f : mis_weight(heuristic, light->pdf, value.pdf);
+    return light_through(tracer, vertex, *light, value, weight);
 }
 
 Color light_from_one_delta_emitter(Tracer& tracer, Sampler& sampler, const Vertex& vertex)

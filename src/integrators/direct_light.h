@@ -10,15 +10,15 @@
 
 namespace plumb {
 
-// How two techniques share what both can find (Veach 1997, section 9.2).
-enum class Heuristic { balance, power };
+// How two techniques share what both can find (Veach 1997, section 9.2). none: one of them counts nothing.
+enum class Heuristic { none, balance, power };
 Heuristic heuristic_of(const Params& params); // the parameter `heuristic`
 float mis_weight(Heuristic heuristic, float mine, float other);
 
 // One emitter, chosen in proportion to power, and one point of it. With a heuristic, emitters that BSDF sampling
 // finds too are weighted against it.
 Color light_from_one_emitter(Tracer& tracer, Sampler& sampler, const Vertex& vertex,
-                             std::optional<Heuristic> heuristic = {});
+                             Heuristic heuristic = Heuristic::none);
 
 // One emitter among those that no BSDF sample can reach: point and directional lights.
 Color light_from_one_delta_emitter(Tracer& tracer, Sampler& sampler, const Vertex& vertex);
@@ -31,7 +31,7 @@ Color light_from_all_delta_emitters(Tracer& tracer, Sampler& sampler, const Vert
 Color light_along(Tracer& tracer, const Vertex& vertex, const std::optional<BsdfSample>& sampled);
 
 // What an emitter's chosen point adds, if it is visible. value: the BSDF's towards it.
-Color light_through(Tracer& tracer, const Vertex& vertex, const EmitterSample& light, const BsdfValue& value,
+Color light_through(Tracer& tracer, const Vertex& vertex, const EmitterSample& light, BsdfValue value,
                     float weight = 1.f);
 
 // Throws Error if an emitter of the scene cannot be sampled by solid angle; `parameter` asked for it.

@@ -21,7 +21,7 @@ inline HemisphereWarp hemisphere_warp(const Params& params, std::string_view nam
     return word == "uniform-hemisphere" ? HemisphereWarp::uniform : HemisphereWarp::cosine;
 }
 
-inline Vec3f sample_hemisphere(HemisphereWarp warp, Vec2f u)
+inline Vec3f sample_hemisphere(HemisphereWarp warp, const Vec2f& u)
 {
     return warp == HemisphereWarp::cosine ? square_to_cosine_hemisphere(u) : square_to_uniform_hemisphere(u);
 }

@@ -27,7 +27,7 @@ public:
     BsdfValue evaluate(const Vec3f& wo_world) const { return evaluate_local(at_.shading.to_local(wo_world)); }
     BsdfValue evaluate_local(const Vec3f& wo) const { return at_.bsdf->evaluate(at_, wi_, wo); }
 
-    std::optional<BsdfSample> sample(float u_lobe, Vec2f u) const
+    std::optional<BsdfSample> sample(float u_lobe, const Vec2f& u) const
     {
         return at_.bsdf->sample(at_, wi_, u_lobe, u);
     }

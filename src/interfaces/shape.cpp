@@ -4,7 +4,7 @@
 
 namespace plumb {
 
-std::optional<ShapeSample> Shape::sample_solid_angle(const Vec3f&, Vec2f) const
+std::optional<ShapeSample> Shape::sample_solid_angle(const Vec3f&, const Vec2f&) const
 {
     return std::nullopt;
 }

@@ -15,7 +15,8 @@ SceneSphere bounding_sphere(const Box3f& bounds)
     return {bounds.center(), length(bounds.size()) * 0.5f};
 }
 
-// Converts to what the function returns: an optional that is given one builds its value where it stays.
+// Converts to what the function returns: an optional that is made from one builds its value where it stays. A copy
+// would have to wait for all that was just written.
 template <class Function>
 struct Elided {
     Function function;
@@ -59,17 +60,19 @@ Scene::~Scene() = default;
 
 std::optional<SurfacePoint> Scene::intersect(const Ray& ray) const
 {
-    std::optional<SurfacePoint> point;
-    if (const std::optional<Accel::Hit> hit = accel_->intersect(ray)) {
+    const std::optional<Accel::Hit> hit = accel_->intersect(ray);
+    if (!hit) return std::nullopt;
+    const auto surface_point = [&] {
         const SceneObject& object = objects_[hit->object];
-        point.emplace(Elided{[&] { return object.shape->surface_at(ray, hit->primitive); }});
-        point->primitive = hit->primitive;
-        point->shape = object.shape.get();
-        point->bsdf = object.bsdf.get();
-        point->emitter = object.emitter.get();
-        point->emitter_index = emitter_of_object_[hit->object];
-    }
-    return point;
+        SurfacePoint point = object.shape->surface_at(ray, hit->primitive);
+        point.primitive = hit->primitive;
+        point.shape = object.shape.get();
+        point.bsdf = object.bsdf.get();
+        point.emitter = object.emitter.get();
+        point.emitter_index = emitter_of_object_[hit->object];
+        return point;
+    };
+    return std::optional<SurfacePoint>(std::in_place, Elided{surface_point});
 }
 
 bool Scene::occluded(const Ray& ray) const
@@ -86,7 +89,7 @@ Ray Scene::shadow_ray(const SurfacePoint& from, const EmitterSample& light)
     return {origin, target - origin, 0.f, one_minus_epsilon};
 }
 
-std::optional<EmitterSample> Scene::sample_emitter(const Vec3f& from, double u_choice, Vec2f u,
+std::optional<EmitterSample> Scene::sample_emitter(const Vec3f& from, double u_choice, const Vec2f& u,
                                                    Measure measure) const
 {
     if (!choice_.can_sample()) return std::nullopt;
@@ -94,7 +97,8 @@ std::optional<EmitterSample> Scene::sample_emitter(const Vec3f& from, double u_c
     return sample_chosen(*emitters_[choice.index], choice, from, u, measure);
 }
 
-std::optional<EmitterSample> Scene::sample_delta_emitter(const Vec3f& from, double u_choice, Vec2f u) const
+std::optional<EmitterSample> Scene::sample_delta_emitter(const Vec3f& from, double u_choice,
+                                                         const Vec2f& u) const
 {
     if (!delta_choice_.can_sample()) return std::nullopt;
     const DiscreteDistribution::Choice choice = delta_choice_.sample(u_choice);
@@ -103,7 +107,7 @@ std::optional<EmitterSample> Scene::sample_delta_emitter(const Vec3f& from, doub
 
 std::optional<EmitterSample> Scene::sample_chosen(const Emitter& emitter,
                                                   const DiscreteDistribution::Choice& choice,
-                                                  const Vec3f& from, Vec2f u, Measure measure) const
+                                                  const Vec3f& from, const Vec2f& u, Measure measure) const
 {
     std::optional<EmitterSample> light = emitter.sample(from, choice.u, u, measure);
     if (!light) return light;

@@ -91,7 +91,7 @@ public:
         return at;
     }
 
-    ShapeSample sample_area(double /*u_select*/, Vec2f u) const override
+    ShapeSample sample_area(double /*u_select*/, const Vec2f& u) const override
     {
         // (u, v) in the barycentric coordinates of the triangle that it lies in.
         const bool lower = u.y <= u.x;

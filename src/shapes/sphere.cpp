@@ -73,12 +73,12 @@ public:
         return at;
     }
 
-    ShapeSample sample_area(double /*u_select*/, Vec2f u) const override
+    ShapeSample sample_area(double /*u_select*/, const Vec2f& u) const override
     {
         return sample_at(normalize(Vec3d(square_to_uniform_sphere(u))), 1.f / area_);
     }
 
-    std::optional<ShapeSample> sample_solid_angle(const Vec3f& from, Vec2f u) const override
+    std::optional<ShapeSample> sample_solid_angle(const Vec3f& from, const Vec2f& u) const override
     {
         const std::optional<Cone> cone = cone_from(from);
         if (!cone) return std::nullopt;

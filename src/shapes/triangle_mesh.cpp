@@ -73,7 +73,7 @@ public:
         return at;
     }
 
-    ShapeSample sample_area(double u_select, Vec2f u) const override
+    ShapeSample sample_area(double u_select, const Vec2f& u) const override
     {
         const std::uint32_t primitive = choice_.sample(u_select).index;
         const Vec2f uv_in_triangle = square_to_triangle(u);
