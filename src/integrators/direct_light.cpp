@@ -17,7 +17,7 @@ Color light_from(Tracer& tracer, Sampler& sampler, const Vertex& vertex, const E
     const Vec2f u = sampler.next_2d();
     const auto light = emitter.sample(vertex.at().position, u_select, u, measure);
     if (!light) return Color(0.f);
-    return light_through(tracer, vertex, *light, vertex.evaluate(light->wi));
+    return light_through(tracer, vertex, *light, vertex.evaluate(light->wi).f_cos);
 }
 
 } // namespace
@@ -38,10 +38,10 @@ float mis_weight(Heuristic heuristic, float mine, float other)
     return 1.f;
 }
 
-Color light_through(Tracer& tracer, const Vertex& vertex, const EmitterSample& light, BsdfValue value,
+Color light_through(Tracer& tracer, const Vertex& vertex, const EmitterSample& light, const Color& f_cos,
                     float weight)
 {
-    const Color contribution = value.f_cos * light.radiance * (weight / light.pdf);
+    const Color contribution = f_cos * light.radiance * (weight / light.pdf);
     if (contribution.is_black()) return contribution;
     if (tracer.visible(vertex.at(), light)) return contribution;
     if (tracer.logging())
@@ -59,7 +59,7 @@ Color light_from_one_emitter(Tracer& tracer, Sampler& sampler, const Vertex& ver
     if (!light) return Color(0.f);
     const BsdfValue value = vertex.evaluate(light->wi);
     const float weight = light->is_delta ? 1.f : mis_weight(heuristic, light->pdf, value.pdf);
-    return light_through(tracer, vertex, *light, value, weight);
+    return light_through(tracer, vertex, *light, value.f_cos, weight);
 }
 
 Color light_from_one_delta_emitter(Tracer& tracer, Sampler& sampler, const Vertex& vertex)
@@ -69,7 +69,7 @@ Color light_from_one_delta_emitter(Tracer& tracer, Sampler& sampler, const Verte
     const Vec2f u = sampler.next_2d();
     const auto light = tracer.scene().sample_delta_emitter(vertex.at().position, u_choice, u);
     if (!light) return Color(0.f);
-    return light_through(tracer, vertex, *light, vertex.evaluate(light->wi));
+    return light_through(tracer, vertex, *light, vertex.evaluate(light->wi).f_cos);
 }
 
 Color light_from_all_emitters(Tracer& tracer, Sampler& sampler, const Vertex& vertex, Measure measure)

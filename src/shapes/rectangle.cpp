@@ -81,14 +81,8 @@ public:
         const auto second = static_cast<float>(b.v);
         const float both = std::min(static_cast<float>(b.u + b.v), 1.f);
 
-        SurfacePoint at;
-        at.position = triangle_point(t, b);
-        at.error = error_;
-        at.geometric_normal = normal_;
-        at.shading = shading_;
-        at.uv = primitive == 0 ? Vec2f(both, second) : Vec2f(first, both);
-        at.primitive = primitive;
-        return at;
+        const Vec2f uv = primitive == 0 ? Vec2f(both, second) : Vec2f(first, both);
+        return {triangle_point(t, b), error_, normal_, shading_, uv, primitive};
     }
 
     ShapeSample sample_area(double /*u_select*/, const Vec2f& u) const override

@@ -62,15 +62,13 @@ public:
         const Vec3d normal = triangle_cross(t);
         const double normal_length = length(normal);
 
-        SurfacePoint at;
-        at.position = triangle_point(t, b);
-        at.error = triangle_error(t, normal_length);
-        at.geometric_normal = normal_length > 0.0 ? front_normal(primitive, normal * (1.0 / normal_length))
-                                                  : normalize(-ray.direction);
-        at.shading = Frame(shading_normal(primitive, b, at.geometric_normal));
-        at.uv = uv(primitive, b);
-        at.primitive = primitive;
-        return at;
+        const Vec3f geometric_normal = normal_length > 0.0
+                                           ? front_normal(primitive, normal * (1.0 / normal_length))
+                                           : normalize(-ray.direction);
+        const Frame shading(shading_normal(primitive, b, geometric_normal));
+        return {triangle_point(t, b), triangle_error(t, normal_length),
+                geometric_normal,     shading,
+                uv(primitive, b),     primitive};
     }
 
     ShapeSample sample_area(double u_select, const Vec2f& u) const override
