@@ -5,6 +5,7 @@
 
 #include "plumb/math.h"
 
+#include <array>
 #include <memory>
 
 namespace plumb {
@@ -14,6 +15,9 @@ inline constexpr std::uint64_t max_samples_per_pixel = std::uint64_t{1} << 26;
 
 // A sample is a point in a space of as many dimensions as a path asks for. Its coordinates are a pure function of
 // (seed, pixel, sample index, dimension): whatever was drawn before start() has no influence. Numbers lie in [0, 1).
+//
+// A sampler makes its coordinates as 32-bit fractions, a block of dimensions at a time, so that drawing one costs no
+// call: to be written are fill_block(), which sets all of block_, and start(), which ends in discard_block().
 class Sampler {
 public:
     virtual ~Sampler() = default;
@@ -23,10 +27,40 @@ public:
     // pixel: in coordinates of the full picture, 0 <= x, y < 65536, so that a crop draws the numbers of the whole.
     virtual void start(std::uint64_t seed, Vec2i pixel, std::uint64_t sample_index) = 0;
 
-    virtual float next_1d() = 0;
-    virtual Vec2f next_2d() = 0;
-    // One dimension with 53 bits, for choosing among many (emitters, triangles, texels).
-    virtual double next_choice() = 0;
+    float next_1d() { return to_unit(next_word()); }
+    Vec2f next_2d()
+    {
+        const float x = to_unit(next_word());
+        const float y = to_unit(next_word());
+        return {x, y};
+    }
+    // One dimension with 53 bits, for choosing among many (emitters, triangles, texels): takes the place of two.
+    double next_choice()
+    {
+        const std::uint64_t high = next_word();
+        const std::uint64_t low = next_word();
+        return static_cast<double>((high << 32 | low) >> 11) * 0x1p-53;
+    }
+
+protected:
+    virtual void fill_block() = 0;
+    void discard_block() { used_ = block_.size(); }
+
+    std::array<std::uint32_t, 32> block_{}; // the coordinates of the next dimensions, times 2^32
+
+private:
+    static float to_unit(std::uint32_t word) { return static_cast<float>(word >> 8) * 0x1p-24f; }
+
+    std::uint32_t next_word()
+    {
+        if (used_ == block_.size()) {
+            fill_block();
+            used_ = 0;
+        }
+        return block_[used_++];
+    }
+
+    std::size_t used_ = block_.size();
 };
 
 } // namespace plumb

@@ -11,7 +11,7 @@ namespace plumb {
 class Texture {
 public:
     virtual ~Texture() = default;
-    virtual Color color(const Vec2f& uv) const = 0;
+    Color color(const Vec2f& uv) const { return uniform_ ? value_ : color_at(uv); }
 
     // Scalar parameters (a roughness, say) read the luminance.
     float scalar(const Vec2f& uv) const { return luminance(color(uv)); }
@@ -21,6 +21,30 @@ public:
     // Bounds of every channel over all uv.
     virtual float min_value() const = 0;
     virtual float max_value() const = 0;
+
+protected:
+    Texture() = default;
+    explicit Texture(const Color& everywhere) : uniform_(true), value_(everywhere) {}
+
+private:
+    // Most textures are a single colour: those are read without a call.
+    virtual Color color_at(const Vec2f& uv) const = 0;
+
+    bool uniform_ = false;
+    Color value_;
+};
+
+class UniformTexture : public Texture {
+public:
+    explicit UniformTexture(const Color& color) : Texture(color), color_(color) {}
+    Color mean() const override { return color_; }
+    float min_value() const override { return min_component(color_); }
+    float max_value() const override { return max_component(color_); }
+
+private:
+    Color color_at(const Vec2f&) const override { return color_; }
+
+    Color color_;
 };
 
 } // namespace plumb

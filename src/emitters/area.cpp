@@ -39,9 +39,8 @@ public:
     {
         if (measure != Measure::area && has_solid_angle_)
             if (const std::optional<ShapeSample> point = shape_->sample_solid_angle(from, u))
-                return seen(from, *point, [](double, double) { return 1.0; });
-        // Per unit solid angle = per unit area * distance^2 / cos.
-        return seen(from, shape_->sample_area(u_select, u), solid_angle_per_area);
+                return seen(from, *point, Measure::solid_angle);
+        return seen(from, shape_->sample_area(u_select, u), Measure::area);
     }
 
     EmitterValue evaluate(const Vec3f& from, const Vec3f& wi, const SurfacePoint* at,
@@ -55,7 +54,7 @@ public:
         if (measure != Measure::area && has_solid_angle_)
             if (const std::optional<float> pdf = shape_->solid_angle_pdf(from)) return {radiance, *pdf};
         const double distance2 = length_squared(Vec3d(at->position) - Vec3d(from));
-        return {radiance, static_cast<float>(solid_angle_per_area(distance2, cosine) / shape_->area())};
+        return {radiance, static_cast<float>(distance2 / (cosine * shape_->area()))};
     }
 
     // Radiance is the same in all directions: pi times its mean leaves each unit of area.
@@ -64,29 +63,28 @@ public:
     bool has_solid_angle() const override { return has_solid_angle_; }
 
 private:
-    static double solid_angle_per_area(double distance2, double cosine) { return distance2 / cosine; }
-
-    // A point on the shape as `from` sees it; nothing from behind.
-    template <class Jacobian>
-    std::optional<EmitterSample> seen(const Vec3f& from, const ShapeSample& point,
-                                      const Jacobian& jacobian) const
+    // A point on the shape as `from` sees it; nothing from behind. measure: of the point's density.
+    std::optional<EmitterSample> seen(const Vec3f& from, const ShapeSample& point, Measure measure) const
     {
+        std::optional<EmitterSample> light;
         const Vec3d towards = Vec3d(point.position) - Vec3d(from);
+        const double facing = -dot(towards, Vec3d(point.normal)); // the distance times the cosine there
+        if (!(facing > 0.0)) return light;
         const double distance2 = length_squared(towards);
         const double distance = std::sqrt(distance2);
-        const Vec3d wi = towards * (1.0 / distance);
-        const double cosine = -dot(wi, Vec3d(point.normal));
-        if (!(distance > 0.0) || !(cosine > 0.0)) return std::nullopt;
 
-        EmitterSample sample;
-        sample.wi = Vec3f(wi);
-        sample.distance = static_cast<float>(distance);
-        sample.position = point.position;
-        sample.error = point.error;
-        sample.normal = point.normal;
-        sample.radiance = radiance_->color(point.uv) * scale_;
-        sample.pdf = static_cast<float>(point.pdf * jacobian(distance2, cosine));
-        return sample;
+        light.emplace();
+        light->wi = Vec3f(towards * (1.0 / distance));
+        light->distance = static_cast<float>(distance);
+        light->position = point.position;
+        light->error = point.error;
+        light->normal = point.normal;
+        light->radiance = radiance_->color(point.uv) * scale_;
+        // Per unit solid angle = per unit area * distance^2 / cosine.
+        light->pdf = measure == Measure::area
+                         ? static_cast<float>(point.pdf * (distance2 * distance / facing))
+                         : point.pdf;
+        return light;
     }
 
     std::shared_ptr<const Texture> radiance_;

@@ -11,19 +11,6 @@ namespace plumb {
 
 namespace {
 
-// The value of a parameter that has no texture.
-class UniformTexture final : public Texture {
-public:
-    explicit UniformTexture(const Color& color) : color_(color) {}
-    Color color(const Vec2f&) const override { return color_; }
-    Color mean() const override { return color_; }
-    float min_value() const override { return min_component(color_); }
-    float max_value() const override { return max_component(color_); }
-
-private:
-    Color color_;
-};
-
 // Whether every value of the texture is in range; if not, the value that is not.
 std::optional<float> value_outside(const Texture& texture, const Range& range)
 {

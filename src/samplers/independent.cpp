@@ -6,44 +6,38 @@
 
 #include "plumb/sampler.h"
 
-#include <array>
+#ifdef __AVX2__
+#include <immintrin.h>
+#endif
 
 namespace plumb {
 namespace {
 
-using Words = std::array<std::uint32_t, 4>;
+// Four words of 32 bits, each in the low half of a lane; what the high halves hold does not matter.
+using Lanes [[gnu::vector_size(32)]] = std::uint64_t;
 
-// The key of one round, [1], section 3.3: Weyl sequences of the golden ratio and of sqrt(3) - 1.
-struct Key {
-    std::uint32_t low;
-    std::uint32_t high;
-    void advance()
-    {
-        low += 0x9E3779B9u;
-        high += 0xBB67AE85u;
-    }
-};
-
-inline Words philox_round(const Words& counter, const Key& key)
+inline Lanes times(Lanes words, std::uint32_t factor)
 {
-    const std::uint64_t a = std::uint64_t{0xD2511F53u} * counter[0];
-    const std::uint64_t b = std::uint64_t{0xCD9E8D57u} * counter[2];
-    return {static_cast<std::uint32_t>(b >> 32) ^ counter[1] ^ key.low, static_cast<std::uint32_t>(b),
-            static_cast<std::uint32_t>(a >> 32) ^ counter[3] ^ key.high, static_cast<std::uint32_t>(a)};
+#ifdef __AVX2__
+    return reinterpret_cast<Lanes>(_mm256_mul_epu32(reinterpret_cast<__m256i>(words), _mm256_set1_epi64x(factor)));
+#else
+    return (words & 0xFFFFFFFFu) * factor;
+#endif
 }
 
+// Four counters of 128 bits.
+struct Counters {
+    Lanes word[4];
+};
+
 // Philox4x32 with 10 rounds, [1], section 3.3: a keyed bijection of 128-bit counters whose outputs pass BigCrush. Of
-// this counter and of the next at once: a round waits for its multiplications, and two can wait together.
-std::array<std::uint32_t, 8> philox_pair(const Words& counter, std::uint64_t seed)
+// eight counters at once: a round waits for its multiplications, and they can wait together. The key advances by Weyl
+// sequences of the golden ratio and of sqrt(3) - 1.
+inline Counters philox_round(const Counters& c, std::uint32_t key_low, std::uint32_t key_high)
 {
-    Key key{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)};
-    Words first = counter;
-    Words second{counter[0] + 1, counter[1], counter[2], counter[3]};
-    for (int round = 0; round < 10; ++round, key.advance()) {
-        first = philox_round(first, key);
-        second = philox_round(second, key);
-    }
-    return {first[0], first[1], first[2], first[3], second[0], second[1], second[2], second[3]};
+    const Lanes a = times(c.word[0], 0xD2511F53u);
+    const Lanes b = times(c.word[2], 0xCD9E8D57u);
+    return {{(b >> 32) ^ (c.word[1] ^ key_low), b, (a >> 32) ^ (c.word[3] ^ key_high), a}};
 }
 
 } // namespace
@@ -69,45 +63,42 @@ public:
     void start(std::uint64_t seed, Vec2i pixel, std::uint64_t sample_index) override
     {
         seed_ = seed;
-        counter_ = {0, static_cast<std::uint32_t>(pixel.x) | static_cast<std::uint32_t>(pixel.y) << 16,
-                    static_cast<std::uint32_t>(sample_index), static_cast<std::uint32_t>(sample_index >> 32)};
-        used_ = words_.size();
-    }
-
-    float next_1d() override { return to_unit(next_word()); }
-
-    Vec2f next_2d() override
-    {
-        const float x = to_unit(next_word());
-        const float y = to_unit(next_word());
-        return {x, y};
-    }
-
-    double next_choice() override
-    {
-        const std::uint64_t high = next_word();
-        const std::uint64_t low = next_word();
-        return static_cast<double>((high << 32 | low) >> 11) * 0x1p-53;
+        first_counter_ = 0;
+        pixel_ = static_cast<std::uint64_t>(pixel.x) | static_cast<std::uint64_t>(pixel.y) << 16;
+        sample_index_ = sample_index;
+        discard_block();
     }
 
 private:
-    static float to_unit(std::uint32_t word) { return static_cast<float>(word >> 8) * 0x1p-24f; }
-
-    std::uint32_t next_word()
+    // The first words of eight counters, then their second words, ...
+    void fill_block() override
     {
-        if (used_ == words_.size()) {
-            words_ = philox_pair(counter_, seed_);
-            counter_[0] += 2;
-            used_ = 0;
+        const auto all = [](std::uint64_t x) { return Lanes{x, x, x, x}; };
+        const Lanes index = Lanes{0, 1, 2, 3} + first_counter_;
+        Counters first{{index, all(pixel_), all(sample_index_), all(sample_index_ >> 32)}};
+        Counters second{{index + 4, all(pixel_), all(sample_index_), all(sample_index_ >> 32)}};
+        first_counter_ += 8;
+        auto key_low = static_cast<std::uint32_t>(seed_);
+        auto key_high = static_cast<std::uint32_t>(seed_ >> 32);
+        for (int round = 0; round < 10; ++round) {
+            first = philox_round(first, key_low, key_high);
+            second = philox_round(second, key_low, key_high);
+            key_low += 0x9E3779B9u;
+            key_high += 0xBB67AE85u;
         }
-        return words_[used_++];
+        for (std::size_t word = 0; word < 4; ++word) {
+            for (std::size_t i = 0; i < 4; ++i) {
+                block_[8 * word + i] = static_cast<std::uint32_t>(first.word[word][i]);
+                block_[8 * word + 4 + i] = static_cast<std::uint32_t>(second.word[word][i]);
+            }
+        }
     }
 
     std::uint64_t samples_per_pixel_;
     std::uint64_t seed_ = 0;
-    Words counter_{}; // block within the sample, pixel, sample index (low and high word)
-    std::array<std::uint32_t, 8> words_{};
-    std::size_t used_ = words_.size();
+    std::uint64_t first_counter_ = 0; // of the next block, within the sample
+    std::uint64_t pixel_ = 0;
+    std::uint64_t sample_index_ = 0;
 };
 
 template std::unique_ptr<Sampler> build<IndependentSampler>(const Params&);

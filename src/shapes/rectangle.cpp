@@ -87,12 +87,12 @@ public:
 
     ShapeSample sample_area(double /*u_select*/, const Vec2f& u) const override
     {
-        // (u, v) in the barycentric coordinates of the triangle that it lies in.
-        const bool lower = u.y <= u.x;
+        // The triangle that (u, v) lies in has the diagonal from the first corner to the third, and a corner of its own.
         const double x = u.x;
         const double y = u.y;
-        const Barycentric b = lower ? Barycentric{x - y, y} : Barycentric{x, y - x};
-        return {triangle_point(triangle(lower ? 0 : 1), b), error_, normal_, u, area_pdf_};
+        const std::size_t own = 1 + 2 * static_cast<std::size_t>(y > x);
+        const Barycentric b{std::abs(x - y), std::min(x, y)};
+        return {triangle_point({corners_[0], corners_[own], corners_[2]}, b), error_, normal_, u, area_pdf_};
     }
 
     float area() const override { return area_; }

@@ -40,12 +40,13 @@ public:
         colors_.second = p.color("color2", both ? color : Color(0.1f));
     }
 
-    Color color(const Vec2f& uv) const override { return colors_.at(uv.x * scale_.x, uv.y * scale_.y); }
     Color mean() const override { return colors_.mean(0.0, scale_.x, 0.0, scale_.y); }
     float min_value() const override { return colors_.min_value(); }
     float max_value() const override { return colors_.max_value(); }
 
 private:
+    Color color_at(const Vec2f& uv) const override { return colors_.at(uv.x * scale_.x, uv.y * scale_.y); }
+
     TwoColors colors_;
     Vec2f scale_;
 };

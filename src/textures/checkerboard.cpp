@@ -44,11 +44,6 @@ public:
         colors_.second = value("value2", 1.f);
     }
 
-    Color color(const Vec2f& uv) const override
-    {
-        return colors_.at((uv.x - delta_.x) / scale_.x, (uv.y - delta_.y) / scale_.y);
-    }
-
     Color mean() const override
     {
         const Vec2f begin = -delta_ / scale_;
@@ -60,6 +55,11 @@ public:
     float max_value() const override { return colors_.max_value(); }
 
 private:
+    Color color_at(const Vec2f& uv) const override
+    {
+        return colors_.at((uv.x - delta_.x) / scale_.x, (uv.y - delta_.y) / scale_.y);
+    }
+
     TwoColors colors_;
     Vec2f scale_;
     Vec2f delta_;

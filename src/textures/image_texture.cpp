@@ -25,18 +25,18 @@ public:
     explicit ImageTexture(const Params& p) : bitmap_(p.file("filepath"), !p.boolean("raw", false), Color(1.f))
     {}
 
-    Color color(const Vec2f& uv) const override
+    Color mean() const override { return bitmap_.mean(); }
+    float min_value() const override { return bitmap_.min_value(); }
+    float max_value() const override { return bitmap_.max_value(); }
+
+private:
+    Color color_at(const Vec2f& uv) const override
     {
         const float x = uv.x * static_cast<float>(bitmap_.width()) - 0.5f;
         const float y = (1.f - uv.y) * static_cast<float>(bitmap_.height()) - 0.5f;
         return bitmap_.bilinear(x, y, Bitmap::Rows::repeat);
     }
 
-    Color mean() const override { return bitmap_.mean(); }
-    float min_value() const override { return bitmap_.min_value(); }
-    float max_value() const override { return bitmap_.max_value(); }
-
-private:
     Bitmap bitmap_;
 };
 

@@ -37,18 +37,18 @@ public:
                            name));
     }
 
-    Color color(const Vec2f& uv) const override
+    Color mean() const override { return bitmap_.mean(); }
+    float min_value() const override { return bitmap_.min_value(); }
+    float max_value() const override { return bitmap_.max_value(); }
+
+private:
+    Color color_at(const Vec2f& uv) const override
     {
         const float x = (1.f - uv.x) * static_cast<float>(bitmap_.width());
         const float y = (1.f - uv.y) * static_cast<float>(bitmap_.height());
         return bitmap_.bilinear(x, y, Bitmap::Rows::repeat);
     }
 
-    Color mean() const override { return bitmap_.mean(); }
-    float min_value() const override { return bitmap_.min_value(); }
-    float max_value() const override { return bitmap_.max_value(); }
-
-private:
     Bitmap bitmap_;
 };
 

@@ -13,12 +13,13 @@ namespace {
 class TwoTone final : public Texture {
 public:
     TwoTone(const Color& left, const Color& right) : left_(left), right_(right) {}
-    Color color(const Vec2f& uv) const override { return uv.x < 0.5f ? left_ : right_; }
     Color mean() const override { return (left_ + right_) * 0.5f; }
     float min_value() const override { return std::min(min_component(left_), min_component(right_)); }
     float max_value() const override { return std::max(max_component(left_), max_component(right_)); }
 
 private:
+    Color color_at(const Vec2f& uv) const override { return uv.x < 0.5f ? left_ : right_; }
+
     Color left_;
     Color right_;
 };
