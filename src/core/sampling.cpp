@@ -6,6 +6,8 @@
 
 #include "plumb/elementary.h"
 
+#include <bit>
+
 namespace plumb {
 
 namespace {
@@ -19,6 +21,14 @@ struct DiskPoint {
     float y;
 };
 
+// condition ? a : b, without a jump: which way is a matter of chance here, and no processor guesses that.
+float select(bool condition, float a, float b)
+{
+    const auto mask = -static_cast<std::uint32_t>(condition);
+    return std::bit_cast<float>((std::bit_cast<std::uint32_t>(a) & mask) |
+                                (std::bit_cast<std::uint32_t>(b) & ~mask));
+}
+
 DiskPoint concentric_disk(const Vec2f& u)
 {
     // [1]: each quarter of the square becomes a quarter of the disk, squares about the centre become circles. A
@@ -27,12 +37,12 @@ DiskPoint concentric_disk(const Vec2f& u)
     const float b = 2.f * u.y - 1.f;
     if (a == 0.f && b == 0.f) return {0.f, 0.f, 0.f};
     const bool wide = std::abs(a) > std::abs(b);
-    const float radius = wide ? a : b;
+    const float radius = select(wide, a, b);
     const SinCos angle =
-        sin_cos_in_first_octant(quarter_pi * ((wide ? b : a) / radius)); // from the nearer axis
+        sin_cos_in_first_octant(quarter_pi * (select(wide, b, a) / radius)); // from the nearer axis
     const float along = radius * angle.cos;
     const float across = radius * angle.sin;
-    return {std::abs(radius), wide ? along : across, wide ? across : along};
+    return {std::abs(radius), select(wide, along, across), select(wide, across, along)};
 }
 
 Vec3f direction(float sine, float cosine, float u)

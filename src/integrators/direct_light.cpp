@@ -38,7 +38,7 @@ float mis_weight(Heuristic heuristic, float mine, float other)
     return 1.f;
 }
 
-Color light_through(Tracer& tracer, const Vertex& vertex, const EmitterSample& light, const Color& f_cos,
+Color light_through(Tracer& tracer, const Vertex& vertex, const EmitterSample& light, Color f_cos,
                     float weight)
 {
     const Color contribution = f_cos * light.radiance * (weight / light.pdf);

@@ -31,7 +31,7 @@ Color light_from_all_delta_emitters(Tracer& tracer, Sampler& sampler, const Vert
 Color light_along(Tracer& tracer, const Vertex& vertex, const std::optional<BsdfSample>& sampled);
 
 // What an emitter's chosen point adds, if it is visible. f_cos: the BSDF's value towards it.
-Color light_through(Tracer& tracer, const Vertex& vertex, const EmitterSample& light, const Color& f_cos,
+Color light_through(Tracer& tracer, const Vertex& vertex, const EmitterSample& light, Color f_cos,
                     float weight = 1.f);
 
 // Throws Error if an emitter of the scene cannot be sampled by solid angle; `parameter` asked for it.

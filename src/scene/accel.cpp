@@ -237,7 +237,7 @@ Scene::Accel::~Accel()
     rtcReleaseDevice(device_);
 }
 
-std::optional<Scene::Accel::Hit> Scene::Accel::intersect(const Ray& ray) const
+Scene::Accel::Hit Scene::Accel::intersect(const Ray& ray) const
 {
     RTCRayHit ray_hit;
     ray_hit.ray = embree_ray(ray);
@@ -250,8 +250,8 @@ std::optional<Scene::Accel::Hit> Scene::Accel::intersect(const Ray& ray) const
     init_context(context);
     rtcIntersect1(scene_, &context, &ray_hit);
 #endif
-    if (ray_hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-    return Hit{object_of_geometry_[ray_hit.hit.geomID], ray_hit.hit.primID};
+    if (ray_hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
+    return {object_of_geometry_[ray_hit.hit.geomID], ray_hit.hit.primID};
 }
 
 bool Scene::Accel::occluded(const Ray& ray) const

@@ -13,9 +13,12 @@ namespace plumb {
 
 class Scene::Accel {
 public:
+    // Not in an optional: its flag, a byte that is read back as a word, would make the processor wait.
     struct Hit {
-        std::uint32_t object;    // index into the objects given
-        std::uint32_t primitive; // within that object
+        static constexpr std::uint32_t nothing = ~0u;
+        std::uint32_t object = nothing; // index into the objects given
+        std::uint32_t primitive = 0;    // within that object
+        explicit operator bool() const { return object != nothing; }
     };
 
     // Throws Error: an instruction set that this processor lacks, too little memory, or what Embree reports.
@@ -24,7 +27,7 @@ public:
     Accel(const Accel&) = delete;
     Accel& operator=(const Accel&) = delete;
 
-    std::optional<Hit> intersect(const Ray& ray) const;
+    Hit intersect(const Ray& ray) const;
     bool occluded(const Ray& ray) const;
     std::string version() const;
 

@@ -19,7 +19,8 @@ SceneSphere bounding_sphere(const Box3f& bounds)
 // would have to wait for all that was just written.
 template <class Function>
 struct Elided {
-    Function function;
+    explicit Elided(const Function& f) : function(f) {}
+    const Function& function;
     operator std::invoke_result_t<const Function&>() const { return function(); }
 };
 
@@ -60,16 +61,16 @@ Scene::~Scene() = default;
 
 std::optional<SurfacePoint> Scene::intersect(const Ray& ray) const
 {
-    const std::optional<Accel::Hit> hit = accel_->intersect(ray);
+    const Accel::Hit hit = accel_->intersect(ray);
     if (!hit) return std::nullopt;
     const auto surface_point = [&] {
-        const SceneObject& object = objects_[hit->object];
-        SurfacePoint point = object.shape->surface_at(ray, hit->primitive);
-        point.primitive = hit->primitive;
+        const SceneObject& object = objects_[hit.object];
+        SurfacePoint point = object.shape->surface_at(ray, hit.primitive);
+        point.primitive = hit.primitive;
         point.shape = object.shape.get();
         point.bsdf = object.bsdf.get();
         point.emitter = object.emitter.get();
-        point.emitter_index = emitter_of_object_[hit->object];
+        point.emitter_index = emitter_of_object_[hit.object];
         return point;
     };
     return std::optional<SurfacePoint>(std::in_place, Elided{surface_point});
@@ -127,9 +128,8 @@ EmitterValue Scene::emission(const Vec3f& from, const Vec3f& wi, const SurfacePo
 {
     if (hit != nullptr) {
         if (hit->emitter == nullptr) return {};
-        EmitterValue value = hit->emitter->evaluate(from, wi, hit, measure);
-        value.pdf *= choice_.probability(hit->emitter_index);
-        return value;
+        const EmitterValue value = hit->emitter->evaluate(from, wi, hit, measure);
+        return {value.radiance, value.pdf * choice_.probability(hit->emitter_index)};
     }
     EmitterValue sum;
     for (const std::uint32_t index : infinite_) {
