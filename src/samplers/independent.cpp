@@ -19,7 +19,8 @@ using Lanes [[gnu::vector_size(32)]] = std::uint64_t;
 inline Lanes times(Lanes words, std::uint32_t factor)
 {
 #ifdef __AVX2__
-    return reinterpret_cast<Lanes>(_mm256_mul_epu32(reinterpret_cast<__m256i>(words), _mm256_set1_epi64x(factor)));
+    return reinterpret_cast<Lanes>(
+        _mm256_mul_epu32(reinterpret_cast<__m256i>(words), _mm256_set1_epi64x(factor)));
 #else
     return (words & 0xFFFFFFFFu) * factor;
 #endif
