@@ -22,7 +22,7 @@ HEADERS = {
             "version",
     "interfaces": "bsdf camera emitter filter integrator params sampler shape surface texture",
     "scene": "scene tracer",
-    "render": "film render",
+    "render": "evidence film render",
     "scene_file": "load scene_file",
 }
 

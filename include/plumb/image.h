@@ -65,9 +65,16 @@ private:
 // curve for 8-bit and 16-bit integer formats (floating-point formats are linear). Throws Error naming the file.
 Image read_image(const std::filesystem::path& path, bool decode_srgb);
 
+// Channels of a rendered picture that say how sure it is (film.h), not how it looks: "variance.*" and "contributing".
+inline bool is_evidence_channel(const std::string& name)
+{
+    return name.starts_with("variance.") || name == "contributing";
+}
+
 // Writes by extension: .exr (32-bit float, ZIP, data and display window), .hdr, .tif/.tiff (float), .png and .jpg
 // (8-bit sRGB after multiplying by 2^exposure; clamped, rounded). The file appears whole or not at all: it is
-// written beside `path` and renamed. Metadata goes into formats that can hold it. Same image, same bytes.
+// written beside `path` and renamed. Metadata goes into formats that can hold it; so do channels of evidence, which must be
+// the last ones (.exr only). Same image, same bytes.
 void write_image(const std::filesystem::path& path, const Image& image, float exposure = 0.f);
 
 // Throws Error if `path` cannot be written: unknown extension, missing or read-only folder, a folder of that name.

@@ -6,6 +6,8 @@
 #include "plumb/color.h"
 #include "plumb/ray.h"
 
+#include <string>
+
 namespace plumb {
 
 class Sampler;
@@ -22,6 +24,10 @@ public:
     // An unbiased estimate of the radiance that arrives along `ray`, against its direction. Calls the sampler in an
     // order that depends on the path alone.
     virtual Color radiance(Tracer& tracer, Sampler& sampler, const Ray& ray) const = 0;
+
+    // How the expectation of radiance() differs from the light that arrives, by the integrator's nature or its
+    // parameters: "light of more than 5 surface bounces is left out". Empty where it does not.
+    virtual std::string bias() const = 0;
 };
 
 } // namespace plumb

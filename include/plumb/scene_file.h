@@ -31,13 +31,19 @@ struct LoadOptions {
     bool lenient = false; // unknown parameters are warnings
 };
 
+// A file that was read, and the hash of its bytes: 32 hex digits.
+struct InputFile {
+    std::filesystem::path path;
+    std::string hash;
+};
+
 struct LoadedScene {
     RenderJob job;
     Dialect dialect;
     std::string integrator; // type names, for the header
     std::string sampler;
-    std::string input_hash; // of every byte read: scene files, meshes, images; 32 hex digits
-    std::vector<std::filesystem::path> inputs; // those files
+    std::vector<InputFile> inputs; // scene files, meshes, images
+    std::string input_hash;        // of them all and of what options and dialect make of them; 32 hex digits
     std::vector<Diagnostic> warnings;
     double parse_seconds = 0.0; // XML, meshes and images
     double build_seconds = 0.0; // Embree

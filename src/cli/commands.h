@@ -11,6 +11,10 @@ void render_command(const Options& options);
 void types_command(const Options& options);
 void info_command(const Options& options);
 void replay_command(const Options& options);
+void rerun_command(const Options& options);
+
+// Renders a loaded scene, and writes pictures and report.
+void render_and_write(const Options& options, const LoadedScene& scene);
 
 // Loads the scene that the options name, and logs its dialect and its warnings unless --quiet.
 LoadedScene load_and_log(const Options& options);

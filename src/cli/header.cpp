@@ -19,6 +19,12 @@ std::vector<float> world_to_camera(const Camera& camera)
     return matrix;
 }
 
+std::string scene_name(const Options& options)
+{
+    const auto path = std::filesystem::path(options.subject).lexically_normal();
+    return valid_utf8((path.is_absolute() ? path.filename() : path).generic_string());
+}
+
 const char* on_off(bool on)
 {
     return on ? "on" : "off";
@@ -26,14 +32,28 @@ const char* on_off(bool on)
 
 } // namespace
 
-Metadata image_header(const Options& options, const LoadedScene& scene, const LeftOut& left_out)
+std::string input_name(const std::filesystem::path& input, const std::filesystem::path& scene_file)
+{
+    const std::filesystem::path from_scene = input.lexically_normal().lexically_relative(
+        scene_file.lexically_normal().parent_path().empty() ? "."
+                                                            : scene_file.lexically_normal().parent_path());
+    const bool inside = !from_scene.empty() && !from_scene.is_absolute();
+    return valid_utf8((inside ? from_scene : input.filename()).generic_string());
+}
+
+Metadata image_header(const Options& options, const LoadedScene& scene, const RenderResult& result)
 {
     Metadata header;
     const auto add = [&](const char* name, MetadataValue value) {
         header.emplace_back(name, std::move(value));
     };
     add("Software", "Plumb " PLUMB_VERSION);
-    add("plumb:scene", valid_utf8(std::filesystem::path(options.subject).filename().string()));
+    add("plumb:scene", options.scene.empty() ? scene_name(options) : options.scene);
+    if (!options.picture_words.empty()) add("plumb:arguments", valid_utf8(options.picture_words.substr(1)));
+    std::string inputs;
+    for (const InputFile& input : scene.inputs)
+        inputs += (inputs.empty() ? "" : "\n") + input.hash + " " + input_name(input.path, options.subject);
+    add("plumb:inputs", inputs);
     add("plumb:inputHash", scene.input_hash);
     if (!options.load.definitions.empty()) {
         std::string definitions;
@@ -54,8 +74,17 @@ Metadata image_header(const Options& options, const LoadedScene& scene, const Le
     add("plumb:envmapScale", scene.dialect.environment_scale);
     add("plumb:instructionSet", scene.job.scene.options().instruction_set);
     add("plumb:embree", scene.job.scene.embree_version());
-    add("plumb:leftOut", std::to_string(left_out.count));
-    if (left_out.count > 0) add("plumb:leftOutFirst", left_out_text(left_out.first));
+    const Ledger ledger = make_ledger(scene.job, scene.dialect, result);
+    add("plumb:biased", ledger.biases.empty() ? 0 : 1);
+    if (!ledger.biases.empty()) add("plumb:biases", list_text(ledger.biases));
+    if (!ledger.model.empty()) add("plumb:model", list_text(ledger.model));
+    if (const auto noise = estimate_noise(result.film)) {
+        add("plumb:rmse", static_cast<float>(noise->rmse));
+        add("plumb:rmseInterval",
+            std::vector<float>{static_cast<float>(noise->low), static_cast<float>(noise->high)});
+    }
+    add("plumb:leftOut", std::to_string(result.left_out.count));
+    if (result.left_out.count > 0) add("plumb:leftOutFirst", left_out_text(result.left_out.first));
     add("worldToCamera", world_to_camera(*scene.job.camera));
     return header;
 }

@@ -2,11 +2,14 @@
 #pragma once
 
 // What an image's header says about how it was made: enough to make it again, and nothing that differs between two
-// identical runs or tells about the machine (no time, no host, no folder).
+// identical runs or tells about the machine (no time, no host).
 //
 //     Software                "Plumb 0.1.0"
-//     plumb:scene             the scene file's name, without its folder
-//     plumb:inputHash         of every byte that was read: scene files, meshes, images
+//     plumb:scene             the scene file: its path as given, or its name if that was an absolute path
+//     plumb:arguments         the words of the command line that matter; only if there are any
+//     plumb:inputs            a line for each file that was read: the hash of its bytes, a space, its path from the scene
+//                             file's folder (or its name, if it lies elsewhere)
+//     plumb:inputHash         of all these, and of what the command line and the dialect make of them
 //     plumb:definitions       -D, in the order of the names; only if given
 //     plumb:integrator, plumb:sampler   type names
 //     plumb:samplesPerPixel
@@ -18,16 +21,25 @@
 //     plumb:envmapFlipped     "on" or "off"
 //     plumb:envmapScale
 //     plumb:instructionSet, plumb:embree
+//     plumb:biased            0 if the picture's expectation is that of the light which its model sends; else 1
+//     plumb:biases            what makes it differ; only if biased
+//     plumb:model             choices of model; only if there are any
+//     plumb:rmse, plumb:rmseInterval   the root mean squared error that its own noise makes expect, with a 95 %
+//                             interval (evidence.h); only if there are 2 samples for each pixel
 //     plumb:leftOut           how many samples were left out: a string
 //     plumb:leftOutFirst      which was the first, and why; only if there is one
 //     worldToCamera           as OpenEXR wants it: for row vectors, so that elements 12 to 14 are the translation.
 //                             In camera space +z looks forward, +y is up and +x is left.
 
 #include "cli/options.h"
+#include "plumb/evidence.h"
 
 namespace plumb {
 
-Metadata image_header(const Options& options, const LoadedScene& scene, const LeftOut& left_out);
+Metadata image_header(const Options& options, const LoadedScene& scene, const RenderResult& result);
+
+// The path of an input as plumb:inputs has it.
+std::string input_name(const std::filesystem::path& input, const std::filesystem::path& scene_file);
 
 std::string left_out_text(const LeftOut::Sample& sample); // "sample 17 of pixel 3,4 (not finite: nan 1 1)"
 

@@ -28,9 +28,14 @@ void print_value(const std::string& name, float value)
     print_row(name, fmt::format("{}", value));
 }
 
+// A row for each line.
 void print_value(const std::string& name, const std::string& value)
 {
-    print_row(name, visible_text(value));
+    for (std::size_t begin = 0; begin <= value.size();) {
+        const std::size_t end = std::min(value.find('\n', begin), value.size());
+        print_row(begin == 0 ? name : "", visible_text(value.substr(begin, end - begin)));
+        begin = end + 1;
+    }
 }
 
 // A matrix in rows of four; other lists in one line.

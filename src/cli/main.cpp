@@ -20,6 +20,7 @@ void run(const Options& options)
     case Verb::types: return types_command(options);
     case Verb::info: return info_command(options);
     case Verb::replay: return replay_command(options);
+    case Verb::rerun: return rerun_command(options);
     }
 }
 

@@ -16,8 +16,10 @@ constexpr unsigned verb_bit(Verb verb)
 
 constexpr unsigned render_only = verb_bit(Verb::render);
 constexpr unsigned replay_only = verb_bit(Verb::replay);
+constexpr unsigned rerun_only = verb_bit(Verb::rerun);
+constexpr unsigned rendering = render_only | rerun_only;
 constexpr unsigned both = render_only | replay_only;
-constexpr unsigned every_verb = both | verb_bit(Verb::types) | verb_bit(Verb::info);
+constexpr unsigned every_verb = both | rerun_only | verb_bit(Verb::types) | verb_bit(Verb::info);
 
 using Name = std::string_view;
 using Text = const std::string&;
@@ -38,13 +40,17 @@ void define(Options& options, Name name, Text text)
 
 // Every option, in the order of --help.
 const OptionRow rows[] = {
-    {Topic::output, render_only, "-o,--output", "FILE",
+    {Topic::output, rendering, "-o,--output", "FILE",
      "write this image: .exr, .hdr, .tif, .png or .jpg; may be given\n"
      "several times (default SCENE_SPP.exr and .png in this folder)",
      [](Options& o, Name, Text t) { o.outputs.push_back(t); }, true},
     {Topic::output, render_only, "--exposure", "EV", "multiply .png and .jpg by 2^EV (default 0)",
      [](Options& o, Name n, Text t) { o.exposure = parse_number(n, t, -100.f, 100.f); }},
-    {Topic::output, render_only, "--json", "FILE", "write a report of the run; - is standard output",
+    {Topic::output, render_only, "--no-variance", "",
+     "leave the error bars out of .exr files: variance.R, variance.G,\n"
+     "variance.B and contributing",
+     [](Options& o, Name, Text) { o.variance = false; }},
+    {Topic::output, rendering, "--json", "FILE", "write a report of the run; - is standard output",
      [](Options& o, Name, Text t) { o.json = t; }},
 
     {Topic::picture, both, "--spp", "N", "samples per pixel (default: the scene's)",
@@ -79,15 +85,21 @@ const OptionRow rows[] = {
     {Topic::scene, both, "--lenient", "", "unknown parameters are warnings, not errors",
      [](Options& o, Name, Text) { o.load.lenient = true; }},
 
-    {Topic::running, render_only, "-t,--threads", "N", "how many (default: all there are)",
+    {Topic::scene, rerun_only, "--scene", "FILE", "where the scene file lies now",
+     [](Options& o, Name n, Text t) {
+         if (t.empty()) throw UsageError(fmt::format("{} needs a file name", n));
+         o.scene = t;
+     }},
+
+    {Topic::running, rendering, "-t,--threads", "N", "how many (default: all there are)",
      [](Options& o, Name n, Text t) { o.render.threads = static_cast<int>(parse_integer(n, t, 1, 1024)); }},
     {Topic::running, both, "--isa", "NAME", "of Embree: sse2, sse4.2, avx, avx2 or avx512 (default avx2)",
      [](Options& o, Name n, Text t) {
          o.load.instruction_set = parse_word(n, t, {"sse2", "sse4.2", "avx", "avx2", "avx512"});
      }},
-    {Topic::running, both, "--quiet", "", "print nothing but errors",
+    {Topic::running, both | rerun_only, "--quiet", "", "print nothing but errors",
      [](Options& o, Name, Text) { o.quiet = true; }},
-    {Topic::running, both, "--verbose", "", "print facts about the scene",
+    {Topic::running, both | rerun_only, "--verbose", "", "print facts about the scene",
      [](Options& o, Name, Text) { o.verbose = true; }},
 
     {Topic::path, replay_only, "--pixel", "X,Y", "the pixel, counted from the upper left corner",
@@ -119,6 +131,12 @@ bool OptionRow::changes_scene() const
            (topic == Topic::scene || topic == Topic::picture || long_name() == "--isa");
 }
 
+bool OptionRow::changes_picture() const
+{
+    return changes_scene() || long_name() == "--crop" || long_name() == "--exposure" ||
+           long_name() == "--no-variance";
+}
+
 std::span<const OptionRow> option_rows()
 {
     return rows;
@@ -134,10 +152,20 @@ std::string help_text(Verb verb)
             "       renderer types [NAME]                           list all plugins, or print one's manual\n"
             "       renderer info IMAGE                             print what an image's header says\n"
             "       renderer replay SCENE --pixel X,Y --sample I    print the path of one sample\n"
+            "       renderer rerun IMAGE -o IMAGE                   render a picture again, from its header "
+            "alone\n"
             "A scene file that is called like a verb is given as ./types.\n";
         break;
     case Verb::types: text = "usage: renderer types [NAME]\n"; break;
     case Verb::info: text = "usage: renderer info IMAGE\n"; break;
+    case Verb::rerun:
+        text = "usage: renderer rerun IMAGE -o IMAGE [options]\n"
+               "Renders a picture of ours again from what its header says, to the same file, byte for byte. "
+               "The scene file is\n"
+               "looked for where it was, from this folder or from the picture's; if it, a mesh, an image or "
+               "this program is not\n"
+               "what it was, the error names it.\n";
+        break;
     case Verb::replay: text = "usage: renderer replay SCENE --pixel X,Y --sample I [options]\n"; break;
     }
     for (const OptionRow& row : rows) {

@@ -24,7 +24,8 @@ struct OptionRow {
     std::string_view long_name() const;
     bool takes_value() const { return *value != '\0'; }
     bool goes_with(Verb verb) const;
-    bool changes_scene() const; // or the seed: `renderer replay` needs it too
+    bool changes_scene() const;   // or the seed: `renderer replay` needs it too
+    bool changes_picture() const; // or its file: `renderer rerun` needs it
 };
 
 // In the order of --help.

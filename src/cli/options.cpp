@@ -12,7 +12,7 @@ namespace plumb {
 namespace {
 
 constexpr std::pair<std::string_view, Verb> verb_names[] = {
-    {"types", Verb::types}, {"info", Verb::info}, {"replay", Verb::replay}};
+    {"types", Verb::types}, {"info", Verb::info}, {"replay", Verb::replay}, {"rerun", Verb::rerun}};
 
 std::string_view name_of(Verb verb)
 {
@@ -81,7 +81,7 @@ void check_outputs(const Options& options)
 
 const char* subject_name(Verb verb)
 {
-    return verb == Verb::types ? "NAME" : verb == Verb::info ? "IMAGE" : "SCENE";
+    return verb == Verb::types ? "NAME" : verb == Verb::info || verb == Verb::rerun ? "IMAGE" : "SCENE";
 }
 
 // CLI11 says "--spp: 1 required TEXT missing" or "quiet was given a disallowed flag override".
@@ -107,9 +107,10 @@ void apply(const OptionRow& row, const std::vector<std::string>& values, Options
             throw UsageError(
                 fmt::format("option '{}' needs a value, and '{}' looks like an option", name, value));
         row.apply(options, name, value);
-        if (!row.changes_scene()) continue;
-        options.scene_words += fmt::format(" {}", name);
-        if (row.takes_value()) options.scene_words += " " + shell_quote(value);
+        std::string word = fmt::format(" {}", name);
+        if (row.takes_value()) word += " " + shell_quote(value);
+        if (row.changes_scene()) options.scene_words += word;
+        if (row.changes_picture()) options.picture_words += word;
     }
 }
 
@@ -161,8 +162,11 @@ Options parse_options(std::vector<std::string> words)
     if (options.help || options.version) return options;
 
     if (options.subject.empty() && options.verb != Verb::types)
-        throw UsageError(fmt::format("no {} given; 'renderer --help' shows how",
-                                     options.verb == Verb::info ? "image" : "scene file"));
+        throw UsageError(
+            fmt::format("no {} given; 'renderer --help' shows how",
+                        subject_name(options.verb) == std::string_view("IMAGE") ? "image" : "scene file"));
+    if (options.verb == Verb::rerun && options.outputs.empty())
+        throw UsageError("rerun needs -o,--output FILE: it does not guess which file to write");
     if (options.verb == Verb::replay)
         for (const auto& [row, option] : given)
             if (row->topic == Topic::path && option->count() == 0)

@@ -11,7 +11,7 @@
 
 namespace plumb {
 
-enum class Verb { render, types, info, replay };
+enum class Verb { render, types, info, replay, rerun };
 
 // The command line makes no sense: main() prints the message and exits with 2.
 class UsageError : public std::runtime_error {
@@ -23,10 +23,12 @@ struct Options {
     Verb verb = Verb::render;
     bool help = false;
     bool version = false;
-    std::string subject;              // the scene, the image or the plugin's name; empty: all plugins
+    std::string subject; // the scene, the image or the plugin's name; empty: all plugins
+    std::string scene;   // where the scene of an image to be rendered again lies now; empty: not said
     std::vector<std::string> outputs; // none: <scene>_<spp>.exr and .png
     std::string json;                 // empty: no report; "-": standard output
     float exposure = 0.f;
+    bool variance = true; // .exr files also hold the error bars
     bool quiet = false;
     bool verbose = false;
     LoadOptions load;     // with samples_per_pixel, if given
@@ -34,7 +36,10 @@ struct Options {
     Vec2i pixel;          // to replay
     std::uint64_t sample = 0;
 
-    std::string scene_words; // what changes the scene or the seed, quoted for a shell: " --seed 7 -D 'a=b c'"
+    // The words that change the scene or the seed, quoted for a shell: " --seed 7 --define 'a=b c'"; and those that
+    // change a picture's file.
+    std::string scene_words;
+    std::string picture_words;
 };
 
 // words: without the program's name. Throws UsageError.

@@ -51,13 +51,13 @@ void check_outputs(const std::vector<std::string>& outputs, const std::string& j
 }
 
 // What the scene was read from is not overwritten.
-void keep_inputs(const std::vector<std::filesystem::path>& inputs, std::vector<std::string> outputs,
+void keep_inputs(const std::vector<InputFile>& inputs, std::vector<std::string> outputs,
                  const std::string& json)
 {
     if (!json.empty() && json != "-") outputs.push_back(json);
     for (const std::string& output : outputs)
-        for (const std::filesystem::path& input : inputs)
-            if (const auto path = identity(output); !path.empty() && path == identity(input))
+        for (const InputFile& input : inputs)
+            if (const auto path = identity(output); !path.empty() && path == identity(input.path))
                 throw Error(
                     fmt::format("cannot write '{}': the scene reads this file; write to another", output));
 }
@@ -97,6 +97,10 @@ void log_summary(const Report& report, const Options& options, std::uint64_t sam
     print_log(fmt::format("{}: {} samples in {}, {}", list_text(report.outputs), count_text(samples),
                           duration_text(report.render_seconds),
                           rate_text(report.rays.total(), report.render_seconds)));
+    if (report.noise)
+        print_log(fmt::format("noise: rmse {:.3g} (95 % interval {:.3g} to {:.3g})", report.noise->rmse,
+                              report.noise->low, report.noise->high));
+    if (!report.ledger.biases.empty()) print_log(fmt::format("biased: {}", list_text(report.ledger.biases)));
     if (report.left_out.count == 0) return;
     const LeftOut::Sample& first = report.left_out.first;
     print_log(fmt::format("warning: {} samples were left out, the first is {}; to see its path:\n"
@@ -109,9 +113,13 @@ void log_summary(const Report& report, const Options& options, std::uint64_t sam
 
 void render_command(const Options& options)
 {
-    const Stopwatch total;
     check_outputs(options.outputs, options.json);
-    const LoadedScene scene = load_and_log(options);
+    render_and_write(options, load_and_log(options));
+}
+
+void render_and_write(const Options& options, const LoadedScene& scene)
+{
+    const Stopwatch since_loaded;
     const bool default_names = options.outputs.empty();
     const std::vector<std::string> outputs =
         default_names ? default_outputs(options, scene) : options.outputs;
@@ -124,14 +132,14 @@ void render_command(const Options& options)
     }();
 
     const Stopwatch writing;
-    Image image = result.film.develop();
-    image.metadata = image_header(options, scene, result.left_out);
+    Image image = result.film.develop(options.variance ? Channels::color_and_evidence : Channels::color);
+    image.metadata = image_header(options, scene, result);
     write_images(outputs, image, options.exposure);
 
     Report report = make_report(options, scene, result);
     report.outputs = outputs;
     report.write_seconds = writing.seconds();
-    report.total_seconds = total.seconds();
+    report.total_seconds = scene.parse_seconds + scene.build_seconds + since_loaded.seconds();
     note_machine(report);
     write_report(report, options.json);
     const PixelRect& window = result.film.window();

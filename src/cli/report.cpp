@@ -82,6 +82,24 @@ void write_left_out(JsonWriter& json, const LeftOut& left_out)
     json.end_object();
 }
 
+void write_evidence(JsonWriter& json, const Report& report)
+{
+    const auto texts = [&](const char* key, const std::vector<std::string>& values) {
+        json.begin_array(key);
+        for (const std::string& value : values) json.text({}, value);
+        json.end_array();
+    };
+    json.boolean("biased", !report.ledger.biases.empty());
+    texts("biases", report.ledger.biases);
+    texts("model", report.ledger.model);
+    if (!report.noise) return json.null("noise");
+    json.begin_object("noise");
+    json.number("rmse", report.noise->rmse);
+    json.number("low", report.noise->low);
+    json.number("high", report.noise->high);
+    json.end_object();
+}
+
 } // namespace
 
 Report make_report(const Options& options, const LoadedScene& scene, const RenderResult& result)
@@ -102,6 +120,8 @@ Report make_report(const Options& options, const LoadedScene& scene, const Rende
     report.render_seconds = result.seconds;
     report.rays = result.rays;
     report.left_out = result.left_out;
+    report.ledger = make_ledger(scene.job, scene.dialect, result);
+    report.noise = estimate_noise(result.film);
     report.threads = result.threads;
     report.instruction_set = scene.job.scene.options().instruction_set;
     report.embree_version = scene.job.scene.embree_version();
@@ -137,6 +157,7 @@ std::string report_json(const Report& report)
     write_picture(json, report);
     write_work(json, report);
     write_left_out(json, report.left_out);
+    write_evidence(json, report);
     json.integer("threads", static_cast<std::uint64_t>(report.threads));
     json.text("instruction_set", report.instruction_set);
     json.text("embree_version", report.embree_version);

@@ -4,6 +4,7 @@
 // The report of a run that --json writes: what the header of an image does not say, times and machine included.
 
 #include "cli/options.h"
+#include "plumb/evidence.h"
 
 namespace plumb {
 
@@ -25,6 +26,8 @@ struct Report {
     double total_seconds = 0.0;
     RayCounts rays;
     LeftOut left_out;
+    Ledger ledger;
+    std::optional<NoiseEstimate> noise; // nothing where it is not known
     int threads = 0;
     std::string instruction_set;
     std::string embree_version;

@@ -100,6 +100,28 @@ std::string list_text(const std::vector<std::string>& items)
     return text;
 }
 
+std::vector<std::string> shell_split(std::string_view line)
+{
+    std::vector<std::string> words;
+    bool quoted = false;
+    bool inside = false; // a word
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        const char c = line[i];
+        if (c == ' ' && !quoted) {
+            inside = false;
+            continue;
+        }
+        if (!std::exchange(inside, true)) words.emplace_back();
+        if (c == '\'')
+            quoted = !quoted;
+        else if (c == '\\' && !quoted && i + 1 < line.size())
+            words.back() += line[++i];
+        else
+            words.back() += c;
+    }
+    return words;
+}
+
 std::string shell_quote(std::string_view word)
 {
     constexpr std::string_view harmless =

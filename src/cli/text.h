@@ -20,6 +20,7 @@ std::string color_text(const Color& color);                   // 0.5 1 nan
 std::string_view verdict_text(Verdict verdict);               // "not finite"
 std::string list_text(const std::vector<std::string>& items); // a, b and c
 std::string shell_quote(std::string_view word);               // as it is if harmless, else in single quotes
+std::vector<std::string> shell_split(std::string_view line);  // the words that shell_quote() made a line of
 std::string visible_text(std::string_view text);              // control characters as \x1b
 // Valid UTF-8: what is not becomes U+FFFD.
 std::string valid_utf8(std::string_view text);

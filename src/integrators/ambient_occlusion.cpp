@@ -43,6 +43,8 @@ public:
         return Color(sum / static_cast<float>(samples_));
     }
 
+    std::string bias() const override { return "it shows how open surfaces lie, not light"; }
+
 private:
     int samples_;
     HemisphereWarp warp_;

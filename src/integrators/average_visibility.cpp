@@ -38,6 +38,8 @@ public:
         return Color(tracer.occluded(probe) ? 0.f : 1.f);
     }
 
+    std::string bias() const override { return "it shows how open surfaces lie, not light"; }
+
 private:
     float length_;
 };

@@ -21,6 +21,8 @@ public:
         if (!hit) return Color(0.f);
         return Color(1.f / length(hit->position - ray.origin));
     }
+
+    std::string bias() const override { return "it shows distances, not light"; }
 };
 
 template std::unique_ptr<Integrator> build<DepthIntegrator>(const Params&);

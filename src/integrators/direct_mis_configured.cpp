@@ -50,6 +50,8 @@ public:
         return trace_path(*this, tracer, sampler, ray);
     }
 
+    std::string bias() const override { return bias_of_depth(max_depth()); }
+
     Color direct(Tracer& tracer, Sampler& sampler, const Vertex& vertex) const
     {
         if (!vertex.has_smooth_lobes()) return Color(0.f);

@@ -21,6 +21,8 @@ public:
         return trace_path(*this, tracer, sampler, ray);
     }
 
+    std::string bias() const override { return bias_of_depth(max_depth()); }
+
     Color direct(Tracer& tracer, Sampler& sampler, const Vertex& vertex) const
     {
         return light_from_all_emitters(tracer, sampler, vertex, Measure::best);

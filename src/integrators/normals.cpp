@@ -22,6 +22,8 @@ public:
         const Vec3f n = abs(hit->shading.n);
         return {n.x, n.y, n.z};
     }
+
+    std::string bias() const override { return "it shows normals, not light"; }
 };
 
 template std::unique_ptr<Integrator> build<NormalsIntegrator>(const Params&);

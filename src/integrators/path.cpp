@@ -69,6 +69,12 @@ public:
                           estimator_);
     }
 
+    std::string bias() const override
+    {
+        return std::visit([](const auto& estimator) { return bias_of_depth(estimator.max_depth()); },
+                          estimator_);
+    }
+
 private:
     using Estimator = std::variant<PathEstimator, ConfiguredPath>;
 

@@ -26,6 +26,14 @@ std::string text(const Color& c)
 
 } // namespace
 
+std::string bias_of_depth(int max_depth)
+{
+    if (max_depth < 0) return "";
+    if (max_depth == 0) return "all but emitted light is left out";
+    return fmt::format("light of more than {} surface bounce{} is left out", max_depth,
+                       max_depth == 1 ? "" : "s");
+}
+
 void log_scatter(Tracer& tracer, const PathState& path, const BsdfSample& next)
 {
     tracer.log(PathEvent::Kind::scatter,

@@ -39,6 +39,9 @@ struct PathState {
     }
 };
 
+// Integrator::bias() of a loop that ends paths at max_depth; negative: none.
+std::string bias_of_depth(int max_depth);
+
 // For `renderer replay`.
 void log_scatter(Tracer& tracer, const PathState& path, const BsdfSample& next);
 void log_roulette(Tracer& tracer, float survival, bool survived);

@@ -26,6 +26,8 @@ public:
         return estimator_.radiance(tracer, sampler, ray);
     }
 
+    std::string bias() const override { return bias_of_depth(estimator_.max_depth()); }
+
 private:
     PathEstimator estimator_;
 };

@@ -37,6 +37,11 @@ public:
         return light_from_all_delta_emitters(tracer, sampler, Vertex(*hit, ray.direction));
     }
 
+    std::string bias() const override
+    {
+        return "it shows only the light of point and directional lights, without bounces";
+    }
+
 private:
     Color from_own_light(Tracer& tracer, const SurfacePoint& at) const
     {

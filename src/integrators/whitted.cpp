@@ -24,6 +24,8 @@ public:
         return trace_path(*this, tracer, sampler, ray);
     }
 
+    std::string bias() const override { return "light between surfaces that are not smooth is left out"; }
+
     Color direct(Tracer& tracer, Sampler& sampler, const Vertex& vertex) const
     {
         return light_from_one_emitter(tracer, sampler, vertex);

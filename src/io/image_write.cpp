@@ -28,7 +28,7 @@ enum class Encoding { linear_float, srgb_8bit };
 struct Format {
     std::string_view extension;
     Encoding encoding;
-    bool keeps_windows; // a picture may be a part of a larger one
+    bool keeps_all; // channels beyond red, green and blue; and that a picture is a part of a larger one
     std::string_view compression;
 };
 
@@ -100,14 +100,22 @@ private:
     bool took_place_ = false;
 };
 
+// Error bars go into formats that hold any channel. They come last.
+int channels_written(const Image& image, const Format& format)
+{
+    const std::vector<std::string>& names = image.channel_names();
+    const auto first_of_evidence = std::find_if(names.begin(), names.end(), is_evidence_channel);
+    return format.keeps_all ? image.channel_count() : static_cast<int>(first_of_evidence - names.begin());
+}
+
 OIIO::ImageSpec spec_of(const Image& image, const Format& format)
 {
     const PixelRect& data = image.data_window();
     const bool is_float = format.encoding == Encoding::linear_float;
-    OIIO::ImageSpec spec(data.width, data.height, image.channel_count(),
-                         is_float ? OIIO::TypeFloat : OIIO::TypeUInt8);
-    spec.channelnames = image.channel_names();
-    if (format.keeps_windows) {
+    const int channels = channels_written(image, format);
+    OIIO::ImageSpec spec(data.width, data.height, channels, is_float ? OIIO::TypeFloat : OIIO::TypeUInt8);
+    spec.channelnames.assign(image.channel_names().begin(), image.channel_names().begin() + channels);
+    if (format.keeps_all) {
         spec.x = data.x;
         spec.y = data.y;
         spec.full_width = image.full_width();
@@ -135,16 +143,17 @@ OIIO::ImageSpec spec_of(const Image& image, const Format& format)
     return spec;
 }
 
-std::vector<std::uint8_t> encode_srgb(const Image& image, float exposure)
+std::vector<std::uint8_t> encode_srgb(const Image& image, int channels, float exposure)
 {
     const PixelRect& data = image.data_window();
-    const auto count = static_cast<std::size_t>(data.width) * static_cast<std::size_t>(data.height) *
-                       static_cast<std::size_t>(image.channel_count());
+    const auto written = static_cast<std::size_t>(channels);
+    const auto given = static_cast<std::size_t>(image.channel_count());
+    const std::size_t pixels = static_cast<std::size_t>(data.width) * static_cast<std::size_t>(data.height);
     const float scale = exposure < 0.f ? 1.f / pow(2.f, -exposure) : pow(2.f, exposure);
     const float* const linear = image.pixel(data.x, data.y);
-    std::vector<std::uint8_t> bytes(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        const float x = linear[i] * scale;
+    std::vector<std::uint8_t> bytes(pixels * written);
+    for (std::size_t i = 0; i < bytes.size(); ++i) {
+        const float x = linear[i / written * given + i % written] * scale;
         const float clamped = x > 0.f ? std::min(x, 1.f) : 0.f; // not a number: 0
         bytes[i] = static_cast<std::uint8_t>(srgb_from_linear(clamped) * 255.f + 0.5f);
     }
@@ -164,9 +173,11 @@ std::vector<unsigned char> encode(const std::string& name, const Image& image, c
     bool good = output->set_ioproxy(&memory) && output->open(name, spec_of(image, format));
     if (good && format.encoding == Encoding::linear_float) {
         const PixelRect& data = image.data_window();
-        good = output->write_image(OIIO::TypeFloat, image.pixel(data.x, data.y));
+        const auto stride =
+            static_cast<OIIO::stride_t>(sizeof(float)) * image.channel_count(); // from pixel to pixel
+        good = output->write_image(OIIO::TypeFloat, image.pixel(data.x, data.y), stride);
     } else if (good) {
-        const std::vector<std::uint8_t> bytes = encode_srgb(image, exposure);
+        const std::vector<std::uint8_t> bytes = encode_srgb(image, channels_written(image, format), exposure);
         good = output->write_image(OIIO::TypeUInt8, bytes.data());
     }
     std::string reason = output->geterror();

@@ -4,7 +4,10 @@
 
 #include "plumb/error.h"
 
+#include <array>
+#include <mutex>
 #include <new>
+#include <unordered_map>
 
 #include <fmt/format.h>
 
@@ -16,18 +19,44 @@ __extension__ typedef __int128 Int128;
 constexpr double unit = 0x1p-64; // what the last bit of a sum is worth
 constexpr double units_per_one = 0x1p64;
 
-// To the nearest unit. |x| < 2^37, so the result lies below 2^101.
-Int128 to_fixed(float x)
+// A sample from here on has its square in the table of large ones. Below, 2^26 squares add up to less than 2^62.
+constexpr float large = 0x1p18f;
+constexpr double large_unit = 0x1p-20;
+constexpr double large_units_per_one = 0x1p20;
+
+// To the nearest unit. Numbers of 2^62 units and more are whole numbers of units: floats have 24 bits, their squares 48.
+Int128 to_fixed(double units)
 {
-    const double units = static_cast<double>(x) * units_per_one; // exact: a power of two
     if (std::abs(units) < 0x1p62) return std::llrint(units);
-    return static_cast<Int128>(units); // a float above 2^-2 is a whole number of units
+    return static_cast<Int128>(units);
 }
 
 } // namespace
 
+// Threads share it; integer sums make their order irrelevant.
+struct Film::LargeSquares {
+    std::mutex mutex;
+    std::unordered_map<std::size_t, std::array<Int128, 3>> of_pixel;
+
+    void add(std::size_t pixel, int channel, double square)
+    {
+        const std::lock_guard lock(mutex);
+        of_pixel[pixel][static_cast<std::size_t>(channel)] += to_fixed(square * large_units_per_one);
+    }
+
+    double sum(std::size_t pixel, int channel) const
+    {
+        const auto found = of_pixel.find(pixel);
+        if (found == of_pixel.end()) return 0.0;
+        return static_cast<double>(found->second[static_cast<std::size_t>(channel)]) * large_unit;
+    }
+};
+
 Film::Film(PixelRect window, int full_width, int full_height)
-    : window_(window), full_width_(full_width), full_height_(full_height)
+    : window_(window),
+      full_width_(full_width),
+      full_height_(full_height),
+      large_squares_(std::make_unique<LargeSquares>())
 {
     try {
         pixels_.resize(static_cast<std::size_t>(window.width) * static_cast<std::size_t>(window.height));
@@ -38,16 +67,15 @@ Film::Film(PixelRect window, int full_width, int full_height)
     static_assert(sizeof(Pixel) == film_bytes_per_pixel);
 }
 
-Film::Pixel& Film::at(Vec2i pixel)
+Film::Film(Film&&) noexcept = default;
+Film& Film::operator=(Film&&) noexcept = default;
+Film::~Film() = default;
+
+std::size_t Film::index(Vec2i pixel) const
 {
     const auto column = static_cast<std::size_t>(pixel.x - window_.x);
     const auto row = static_cast<std::size_t>(pixel.y - window_.y);
-    return pixels_[row * static_cast<std::size_t>(window_.width) + column];
-}
-
-const Film::Pixel& Film::at(Vec2i pixel) const
-{
-    return const_cast<Film&>(*this).at(pixel);
+    return row * static_cast<std::size_t>(window_.width) + column;
 }
 
 Verdict Film::add(Vec2i pixel, const Color& radiance, float weight)
@@ -57,30 +85,74 @@ Verdict Film::add(Vec2i pixel, const Color& radiance, float weight)
     const Color value = radiance * weight;
     if (!(max_component(value) < film_max_value && min_component(value) > -film_max_value))
         return Verdict::out_of_range;
-    Pixel& p = at(pixel);
-    p.sum[0] += to_fixed(value.r);
-    p.sum[1] += to_fixed(value.g);
-    p.sum[2] += to_fixed(value.b);
-    ++p.count;
+    const std::size_t at = index(pixel);
+    ++pixels_[at].count;
+    if (value.is_black()) return Verdict::accepted;
+    ++pixels_[at].contributing;
+    add_channel(at, 0, value.r);
+    add_channel(at, 1, value.g);
+    add_channel(at, 2, value.b);
     return Verdict::accepted;
+}
+
+void Film::add_channel(std::size_t pixel, int channel, float value)
+{
+    Pixel& p = pixels_[pixel];
+    const double x = value; // its square is exact
+    p.sum[channel] += to_fixed(x * units_per_one);
+    if (std::abs(value) < large) [[likely]]
+        p.squares[channel] += to_fixed(x * x * units_per_one);
+    else
+        large_squares_->add(pixel, channel, x * x);
 }
 
 std::uint64_t Film::sample_count(Vec2i pixel) const
 {
-    return at(pixel).count;
+    return pixels_[index(pixel)].count;
 }
 
-Image Film::develop() const
+std::uint64_t Film::contributing_count(Vec2i pixel) const
 {
-    Image image(window_, full_width_, full_height_);
+    return pixels_[index(pixel)].contributing;
+}
+
+double Film::mean(std::size_t pixel, int channel) const
+{
+    const Pixel& p = pixels_[pixel];
+    return p.count == 0 ? 0.0 : static_cast<double>(p.sum[channel]) * unit / static_cast<double>(p.count);
+}
+
+double Film::variance_of_mean(std::size_t pixel, int channel) const
+{
+    const Pixel& p = pixels_[pixel];
+    if (p.count < 2) return std::numeric_limits<double>::quiet_NaN();
+    const double n = p.count;
+    const double mean_square =
+        (static_cast<double>(p.squares[channel]) * unit + large_squares_->sum(pixel, channel)) / n;
+    return std::max(mean_square - sqr(mean(pixel, channel)), 0.0) / (n - 1.0);
+}
+
+Color Film::variance_of_mean(Vec2i pixel) const
+{
+    const std::size_t at = index(pixel);
+    return {static_cast<float>(variance_of_mean(at, 0)), static_cast<float>(variance_of_mean(at, 1)),
+            static_cast<float>(variance_of_mean(at, 2))};
+}
+
+Image Film::develop(Channels channels) const
+{
+    const bool evidence = channels == Channels::color_and_evidence;
+    std::vector<std::string> names = {"R", "G", "B"};
+    if (evidence) names.insert(names.end(), {"variance.R", "variance.G", "variance.B", "contributing"});
+    Image image(window_, full_width_, full_height_, std::move(names));
     for (int y = window_.y; y < window_.y + window_.height; ++y) {
         for (int x = window_.x; x < window_.x + window_.width; ++x) {
-            const Pixel& p = at({x, y});
+            const std::size_t at = index({x, y});
             float* out = image.pixel(x, y);
-            for (int c = 0; c < 3; ++c)
-                out[c] = p.count == 0 ? 0.f
-                                      : static_cast<float>(static_cast<double>(p.sum[c]) * unit /
-                                                           static_cast<double>(p.count));
+            for (int c = 0; c < 3; ++c) out[c] = static_cast<float>(mean(at, c));
+            if (!evidence) continue;
+            for (int c = 0; c < 3; ++c) out[3 + c] = static_cast<float>(variance_of_mean(at, c));
+            out[6] = static_cast<float>(pixels_[at].contributing);
         }
     }
     return image;

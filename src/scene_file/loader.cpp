@@ -54,53 +54,47 @@ std::vector<Diagnostic> in_file_order(const std::vector<Diagnostic>& diagnostics
     return sorted;
 }
 
-class InputHash {
-public:
-    void add(std::string_view bytes)
-    {
-        hash_.update(fmt::format("{}:", bytes.size()));
-        hash_.update(bytes);
-    }
-
-    void add_file(const std::filesystem::path& path)
-    {
-        std::error_code status;
-        hash_.update(fmt::format("{}:", std::filesystem::file_size(path, status)));
-        std::ifstream file(path, std::ios::binary);
-        std::vector<char> block(1 << 20);
-        while (file) {
-            file.read(block.data(), static_cast<std::streamsize>(block.size()));
-            hash_.update({block.data(), static_cast<std::size_t>(file.gcount())});
-        }
-    }
-
-    std::string hex() const { return hash_.hex(); }
-
-private:
-    Hash128 hash_;
-};
-
-// Of the bytes of every file, and of what the command line and the dialect make of them.
-std::string input_hash(const Expansion& expansion, const LoadContext& context, const LoadOptions& options)
+std::string hash_of_file(const std::filesystem::path& path)
 {
-    InputHash hash;
-    for (const auto& file : expansion.files) hash.add(file->text());
-    for (const std::filesystem::path& file : context.files) hash.add_file(file);
-    for (const auto& [name, value] : options.definitions) hash.add(fmt::format("{}={}", name, value));
-    hash.add(options.integrator.value_or(""));
-    hash.add(options.sampler.value_or(""));
-    if (options.resolution) hash.add(fmt::format("{}x{}", options.resolution->x, options.resolution->y));
-    const Dialect& dialect = context.dialect;
-    hash.add(fmt::format("{} {} {} {} {}", dialect.mirrored_view, dialect.emitters_absorb,
-                         dialect.point_takes_power, dialect.environment_flipped, dialect.environment_scale));
+    Hash128 hash;
+    std::ifstream file(path, std::ios::binary);
+    std::vector<char> block(1 << 20);
+    while (file) {
+        file.read(block.data(), static_cast<std::streamsize>(block.size()));
+        hash.update({block.data(), static_cast<std::size_t>(file.gcount())});
+    }
     return hash.hex();
 }
 
-std::vector<std::filesystem::path> input_files(const Expansion& expansion, const LoadContext& context)
+std::vector<InputFile> input_files(const Expansion& expansion, const LoadContext& context)
 {
-    std::vector<std::filesystem::path> files = context.files;
-    for (const auto& file : expansion.files) files.push_back(file->path());
+    std::vector<InputFile> files;
+    for (const auto& file : expansion.files) {
+        Hash128 hash;
+        hash.update(file->text());
+        files.push_back({file->path(), hash.hex()});
+    }
+    for (const std::filesystem::path& file : context.files) files.push_back({file, hash_of_file(file)});
     return files;
+}
+
+// Of the bytes of every file, and of what the command line and the dialect make of them.
+std::string input_hash(const std::vector<InputFile>& files, const Dialect& dialect,
+                       const LoadOptions& options)
+{
+    Hash128 hash;
+    const auto add = [&hash](std::string_view text) {
+        hash.update(fmt::format("{}:", text.size()));
+        hash.update(text);
+    };
+    for (const InputFile& file : files) add(file.hash);
+    for (const auto& [name, value] : options.definitions) add(fmt::format("{}={}", name, value));
+    add(options.integrator.value_or(""));
+    add(options.sampler.value_or(""));
+    if (options.resolution) add(fmt::format("{}x{}", options.resolution->x, options.resolution->y));
+    add(fmt::format("{} {} {} {} {}", dialect.mirrored_view, dialect.emitters_absorb,
+                    dialect.point_takes_power, dialect.environment_flipped, dialect.environment_scale));
+    return hash.hex();
 }
 
 // The root element must be a <scene>.
@@ -141,7 +135,8 @@ LoadedScene load_scene(const std::filesystem::path& path, const LoadOptions& opt
     LoadContext context{diagnostics, dialect, options.lenient, {}};
     SceneParts parts = build_scene(expansion.root, options, context);
     if (diagnostics.has_errors()) fail(diagnostics, expansion.files);
-    std::string hash = input_hash(expansion, context, options);
+    std::vector<InputFile> inputs = input_files(expansion, context);
+    std::string hash = input_hash(inputs, dialect, options);
     const double parse_seconds = seconds_since(start);
 
     // The objects become a scene.
@@ -159,8 +154,8 @@ LoadedScene load_scene(const std::filesystem::path& path, const LoadOptions& opt
             .dialect = dialect,
             .integrator = std::move(parts.integrator_type),
             .sampler = std::move(parts.sampler_type),
+            .inputs = std::move(inputs),
             .input_hash = std::move(hash),
-            .inputs = input_files(expansion, context),
             .warnings = in_file_order(diagnostics.all(), expansion.files),
             .parse_seconds = parse_seconds,
             .build_seconds = seconds_since(build_start)};

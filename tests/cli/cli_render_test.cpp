@@ -45,7 +45,9 @@ TEST_CASE("a scene becomes an image", "[cli][render]")
     const Image image = read_image(folder / "a.exr", false);
     CHECK(image.full_width() == 48);
     CHECK(image.full_height() == 36);
-    CHECK(image.channel_names() == Names{"R", "G", "B"});
+    CHECK(image.channel_names() == Names{"R", "G", "B", "contributing", "variance.R", "variance.G",
+                                         "variance.B"}); // OpenImageIO's order
+    CHECK(read_image(folder / "b.png", false).channel_names() == Names{"R", "G", "B"});
     float brightest = 0.f;
     for (int y = 0; y < 36; ++y)
         for (int x = 0; x < 48; ++x) brightest = std::max(brightest, max_component(image.color(x, y)));

@@ -107,8 +107,9 @@ TEST_CASE("info prints what the header knows", "[cli][info]")
     const RunResult info = folder.run({"info", "a.exr"});
     CHECK(info.exit_code == 0);
     CHECK(info.err.empty());
-    for (const char* part : {"a.exr\n", " 48 x 36\n", " 1,2,30,20\n", " R G B\n", "plumb:scene",
-                             "plumb:inputHash", "plumb:integrator", " path_mis\n", "worldToCamera"})
+    for (const char* part :
+         {"a.exr\n", " 48 x 36\n", " 1,2,30,20\n", " R G B contributing variance.R variance.G variance.B\n",
+          "plumb:scene", "plumb:inputHash", "plumb:integrator", " path_mis\n", "worldToCamera"})
         CHECK_THAT(info.out, ContainsSubstring(part));
 
     const RunResult none = folder.run({"info", "none.exr"});

@@ -101,3 +101,56 @@ TEST_CASE("a film keeps a window of a larger picture", "[unit][film]")
     REQUIRE(image.color(6, 6) == Color(1.f, 2.f, 3.f));
     REQUIRE(image.color(3, 2) == Color());
 }
+
+TEST_CASE("a film's variance is the sample variance over n, whatever the size of the samples", "[unit][film]")
+{
+    // Some of the last scale's samples have their squares in the table of large ones.
+    const float scale = GENERATE(1e-6f, 1.f, 1e6f);
+    test::TestRandom random(5);
+    std::vector<float> samples;
+    for (int i = 0; i < 1000; ++i) samples.push_back(scale * random.next_1d() * random.next_1d());
+    const auto develop = [&samples] {
+        Film film(one_pixel, 1, 1);
+        for (const float x : samples) film.add({0, 0}, Color(x, 0.5f * x, 0.f), x > 0.f ? 1.f : -1.f);
+        return film.variance_of_mean({0, 0});
+    };
+    long double mean = 0.0L;
+    for (const float x : samples) mean += x;
+    mean /= static_cast<long double>(samples.size());
+    long double variance = 0.0L;
+    for (const float x : samples) variance += (x - mean) * (x - mean);
+    variance /= 1000.0L * 999.0L;
+
+    const Color found = develop();
+    CHECK(found.r == Approx(static_cast<double>(variance)).epsilon(1e-6));
+    CHECK(found.g == Approx(0.25 * static_cast<double>(variance)).epsilon(1e-6));
+    CHECK(found.b == 0.f);
+    std::reverse(samples.begin(), samples.end());
+    CHECK(same_bits(develop(), found));
+}
+
+TEST_CASE("the variance of one sample is unknown, not 0", "[unit][film]")
+{
+    Film film(one_pixel, 1, 1);
+    CHECK(std::isnan(film.variance_of_mean({0, 0}).r));
+    film.add({0, 0}, Color(1.f), 1.f);
+    CHECK(std::isnan(film.variance_of_mean({0, 0}).g));
+    film.add({0, 0}, Color(3.f), 1.f);
+    CHECK(film.variance_of_mean({0, 0}) == Color(1.f)); // s^2 = 2, over 2
+}
+
+TEST_CASE("a film counts the samples that are not black", "[unit][film]")
+{
+    Film film(one_pixel, 1, 1);
+    film.add({0, 0}, Color(), 1.f);
+    film.add({0, 0}, Color(0.f, 0.f, 1e-30f), 1.f);
+    film.add({0, 0}, Color(-1.f), 1.f); // left out
+    CHECK(film.sample_count({0, 0}) == 2);
+    CHECK(film.contributing_count({0, 0}) == 1);
+
+    const Image image = film.develop(Channels::color_and_evidence);
+    CHECK(image.channel_names() ==
+          std::vector<std::string>{"R", "G", "B", "variance.R", "variance.G", "variance.B", "contributing"});
+    CHECK(image.pixel(0, 0)[6] == 1.f);
+    CHECK(film.develop().channel_count() == 3);
+}

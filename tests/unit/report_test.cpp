@@ -96,6 +96,19 @@ TEST_CASE("a report has what --json promises", "[unit][json]")
                                  "\"finished\": "})
             CHECK_THAT(json, ContainsSubstring(part));
     }
+    SECTION("what makes it biased, and its noise")
+    {
+        CHECK_THAT(report_json(report),
+                   ContainsSubstring("\"biased\": false,\n  \"biases\": [],\n  \"model\": [],\n"
+                                     "  \"noise\": null,"));
+        report.ledger.biases = {"this", "that"};
+        report.ledger.model = {"emitters absorb"};
+        report.noise = NoiseEstimate{0.5, 0.25, 0.75};
+        CHECK_THAT(report_json(report),
+                   ContainsSubstring("\"biased\": true,\n  \"biases\": [\n    \"this\",\n    \"that\"\n  ],\n"
+                                     "  \"model\": [\n    \"emitters absorb\"\n  ],\n  \"noise\": {\n"
+                                     "    \"rmse\": 0.5,\n    \"low\": 0.25,\n    \"high\": 0.75\n  },"));
+    }
     SECTION("a sample left out has its place and its reason")
     {
         report.left_out.count = 3;

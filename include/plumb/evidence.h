@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// How sure a picture is, and what its expectation is that of.
+
+#include "plumb/dialect.h"
+#include "plumb/render.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace plumb {
+
+// The root of the mean squared error of a picture, over its pixels and channels, estimated from the variance of its own
+// samples: what is expected of noise, without bias. low to high: a 95 % interval.
+//
+// The mean of unbiased estimates of each pixel's variance is an unbiased estimate of the mean squared error. The interval
+// is that of a mean of as many independent numbers as there are pixels, by the central limit theorem, with the spread of
+// the estimates over the picture; that spread includes how much the pixels differ, so the interval is too wide rather
+// than too narrow. Where most of the noise is in paths that few samples have found yet, both are too small, as any
+// estimate from the samples is.
+struct NoiseEstimate {
+    double rmse = 0.0;
+    double low = 0.0;
+    double high = 0.0;
+};
+
+// Nothing if a pixel has fewer than 2 samples.
+std::optional<NoiseEstimate> estimate_noise(const Film& film);
+
+// What an image's expectation differs in from all the light that the scene's model sends to the camera, and what the
+// model itself is where there was a choice. Phrases for people.
+struct Ledger {
+    std::vector<std::string> biases; // empty: unbiased
+    std::vector<std::string> model;
+};
+
+Ledger make_ledger(const RenderJob& job, const Dialect& dialect, const RenderResult& result);
+
+} // namespace plumb

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+
+#include "plumb/evidence.h"
+
+#include <fmt/format.h>
+
+namespace plumb {
+
+std::optional<NoiseEstimate> estimate_noise(const Film& film)
+{
+    const PixelRect& window = film.window();
+    const double pixels = static_cast<double>(window.width) * static_cast<double>(window.height);
+    double sum = 0.0;
+    double sum_of_squares = 0.0;
+    for (int y = window.y; y < window.y + window.height; ++y) {
+        for (int x = window.x; x < window.x + window.width; ++x) {
+            const Color variance = film.variance_of_mean({x, y});
+            if (std::isnan(variance.r)) return std::nullopt;
+            const double mean = (static_cast<double>(variance.r) + static_cast<double>(variance.g) +
+                                 static_cast<double>(variance.b)) /
+                                3.0;
+            sum += mean;
+            sum_of_squares += sqr(mean);
+        }
+    }
+    const double squared_error = sum / pixels;
+    const double spread = std::max(sum_of_squares / pixels - sqr(squared_error), 0.0);
+    constexpr double normal_quantile = 1.959963984540054; // of 0.975
+    const double margin = normal_quantile * std::sqrt(spread / pixels);
+    return NoiseEstimate{std::sqrt(squared_error), std::sqrt(std::max(squared_error - margin, 0.0)),
+                         std::sqrt(squared_error + margin)};
+}
+
+Ledger make_ledger(const RenderJob& job, const Dialect& dialect, const RenderResult& result)
+{
+    Ledger ledger;
+    if (std::string bias = job.integrator->bias(); !bias.empty()) ledger.biases.push_back(std::move(bias));
+    if (result.left_out.count > 0)
+        ledger.biases.push_back(fmt::format("{} samples were left out", result.left_out.count));
+
+    if (dialect.emitters_absorb) ledger.model.emplace_back("emitters absorb the light that meets them");
+    if (dialect.mirrored_view) ledger.model.emplace_back("the view is mirrored");
+    if (dialect.point_takes_power) ledger.model.emplace_back("the power of point lights is in watts");
+    if (dialect.environment_flipped) ledger.model.emplace_back("environment images are flipped");
+    if (dialect.environment_scale != 1.f)
+        ledger.model.push_back(
+            fmt::format("environment images are multiplied by {}", dialect.environment_scale));
+    return ledger;
+}
+
+} // namespace plumb

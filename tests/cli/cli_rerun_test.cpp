@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+
+// Error bars, the ledger of biases, and pictures rendered again from their headers.
+
+#include "cli/small_scene.h"
+#include "cli/text.h"
+#include "plumb/image.h"
+#include "support/catch.h"
+
+#include <cmath>
+#include <map>
+
+using namespace plumb;
+
+namespace {
+
+std::map<std::string, MetadataValue> header(const std::filesystem::path& image)
+{
+    const Image read = read_image(image, false);
+    return {read.metadata.begin(), read.metadata.end()};
+}
+
+int integer(const std::map<std::string, MetadataValue>& header, const std::string& name)
+{
+    return std::get<int>(header.at(name));
+}
+
+std::string text(const std::map<std::string, MetadataValue>& header, const std::string& name)
+{
+    return std::get<std::string>(header.at(name));
+}
+
+const std::string triangle = "v -1 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\n";
+
+std::string scene_with_mesh()
+{
+    std::string scene = small_scene();
+    scene.insert(scene.find("</scene>"),
+                 R"(<mesh type="obj"><string name="filename" value="triangle.obj"/></mesh>)");
+    return scene;
+}
+
+} // namespace
+
+TEST_CASE("words for a shell come back as they were", "[unit][text]")
+{
+    const Names words = {"plain", "", "two words", "it's", "a=b", "'", "\\", "\n", "--define", "x='y z'"};
+    std::string line;
+    for (const std::string& word : words) line += (line.empty() ? "" : " ") + shell_quote(word);
+    CHECK(shell_split(line) == words);
+    CHECK(shell_split("").empty());
+}
+
+TEST_CASE("an image says how sure it is", "[cli][evidence]")
+{
+    const SceneFolder folder;
+    REQUIRE(folder.run({"scene.xml", "-o", "a.exr", "--spp", "16"}).exit_code == 0);
+    const auto found = header(folder / "a.exr");
+    CHECK(integer(found, "plumb:biased") == 0);
+    CHECK(found.count("plumb:biases") == 0);
+    const float rmse = std::get<float>(found.at("plumb:rmse"));
+    const auto& interval = std::get<std::vector<float>>(found.at("plumb:rmseInterval"));
+    REQUIRE(interval.size() == 2);
+    CHECK(interval[0] < rmse);
+    CHECK(rmse < interval[1]);
+
+    // The error against a picture with a hundred times the samples is what was foretold, to a third.
+    REQUIRE(folder.run({"scene.xml", "-o", "b.exr", "--spp", "1600", "--seed", "9"}).exit_code == 0);
+    const Image a = read_image(folder / "a.exr", false);
+    const Image b = read_image(folder / "b.exr", false);
+    double sum = 0.0;
+    for (int y = 0; y < 36; ++y)
+        for (int x = 0; x < 48; ++x)
+            for (int c = 0; c < 3; ++c)
+                sum += std::pow(double(a.color(x, y)[c]) - double(b.color(x, y)[c]), 2.0);
+    CHECK(std::sqrt(sum / (36 * 48 * 3)) == Approx(rmse).epsilon(0.33));
+
+    REQUIRE(folder.run({"scene.xml", "-o", "c.exr", "--spp", "16", "--no-variance"}).exit_code == 0);
+    CHECK(read_image(folder / "c.exr", false).channel_names() == Names{"R", "G", "B"});
+    REQUIRE(folder.run({"scene.xml", "-o", "d.exr", "--spp", "1"}).exit_code == 0);
+    CHECK(header(folder / "d.exr").count("plumb:rmse") == 0);
+    const Image d = read_image(folder / "d.exr", false);
+    CHECK(d.channel_names()[4] == "variance.R");
+    CHECK(std::isnan(d.pixel(3, 3)[4]));
+}
+
+TEST_CASE("what makes a picture biased is in its header and in the log", "[cli][evidence]")
+{
+    const SceneFolder folder;
+    folder.write(
+        "cut.xml",
+        small_scene(R"(<integrator type="path_mis"><integer name="maxDepth" value="2"/></integrator>)"));
+    const RunResult run = folder.run({"cut.xml", "-o", "a.exr", "--emitters", "absorb"});
+    REQUIRE(run.exit_code == 0);
+    CHECK_THAT(run.err, ContainsSubstring("biased: light of more than 2 surface bounces is left out\n"));
+    const auto found = header(folder / "a.exr");
+    CHECK(integer(found, "plumb:biased") == 1);
+    CHECK(text(found, "plumb:biases") == "light of more than 2 surface bounces is left out");
+    CHECK(text(found, "plumb:model") == "emitters absorb the light that meets them");
+}
+
+TEST_CASE("a picture is rendered again from its header, to the same bytes", "[cli][rerun]")
+{
+    const SceneFolder folder;
+    folder.write("sub/it's.xml", small_scene());
+    const Names words =
+        GENERATE(Names{}, Names{"--spp", "3", "--seed", "18446744073709551615"}, Names{"--crop", "5,6,20,11"},
+                 Names{"--integrator", "path_nee", "--size", "20x30", "--isa", "sse4.2"},
+                 Names{"--no-variance", "--mirror", "on", "--emitters", "absorb", "--dialect", "eth"});
+    Names first = {"sub/it's.xml", "-o", "a.exr"};
+    first.insert(first.end(), words.begin(), words.end());
+    const RunResult rendered = folder.run(first);
+    INFO(rendered.err);
+    REQUIRE(rendered.exit_code == 0);
+    const RunResult again = folder.run({"rerun", "a.exr", "-o", "b.exr", "--threads", "3"});
+    INFO(again.err);
+    REQUIRE(again.exit_code == 0);
+    CHECK(read_bytes(folder / "a.exr") == read_bytes(folder / "b.exr"));
+    // And the new one is as good.
+    REQUIRE(folder.run({"rerun", "b.exr", "-o", "c.exr", "--quiet"}).exit_code == 0);
+    CHECK(read_bytes(folder / "a.exr") == read_bytes(folder / "c.exr"));
+}
+
+TEST_CASE("rerun names what has changed", "[cli][rerun]")
+{
+    const SceneFolder folder;
+    folder.write("scene.xml", scene_with_mesh());
+    folder.write("triangle.obj", triangle);
+    REQUIRE(folder.run({"scene.xml", "-o", "a.exr"}).exit_code == 0);
+    const auto complaint = [&](const Names& more = {}) {
+        Names words = {"rerun", "a.exr", "-o", "b.exr", "--quiet"};
+        words.insert(words.end(), more.begin(), more.end());
+        const RunResult run = folder.run(words);
+        CHECK(run.exit_code == 1);
+        CHECK_FALSE(std::filesystem::exists(folder / "b.exr"));
+        return run.err;
+    };
+    folder.write("triangle.obj", triangle + "\n");
+    CHECK(complaint() == "error: the scene is not what it was: 'triangle.obj' has changed\n");
+    folder.write("triangle.obj", triangle);
+    folder.write("scene.xml", scene_with_mesh() + "\n");
+    CHECK(complaint() == "error: the scene is not what it was: 'scene.xml' has changed\n");
+    folder.write("scene.xml", small_scene());
+    CHECK(complaint() == "error: the scene is not what it was: 'scene.xml' has changed and 'triangle.obj' is "
+                         "no longer read\n");
+    folder.write("moved/scene.xml", scene_with_mesh());
+    folder.write("moved/triangle.obj", triangle);
+    std::filesystem::remove(folder / "scene.xml");
+    CHECK(complaint() ==
+          "error: there is no scene file 'scene.xml', neither here nor beside 'a.exr'; say where it is "
+          "with --scene\n");
+    REQUIRE(folder.run({"rerun", "a.exr", "-o", "b.exr", "--scene", "moved/scene.xml"}).exit_code == 0);
+    CHECK(read_bytes(folder / "a.exr") == read_bytes(folder / "b.exr"));
+}
+
+TEST_CASE("rerun takes pictures of ours, and keeps them", "[cli][rerun]")
+{
+    const SceneFolder folder;
+    write_image(folder / "foreign.exr", Image(2, 2));
+    const RunResult foreign = folder.run({"rerun", "foreign.exr", "-o", "b.exr"});
+    CHECK(foreign.exit_code == 1);
+    CHECK(foreign.err ==
+          "error: the header of 'foreign.exr' does not say how the picture was made; the .exr files "
+          "that Plumb renders do\n");
+    REQUIRE(folder.run({"scene.xml", "-o", "a.exr"}).exit_code == 0);
+    const std::string bytes = read_bytes(folder / "a.exr");
+    const RunResult same = folder.run({"rerun", "a.exr", "-o", "a.exr"});
+    CHECK(same.exit_code == 1);
+    CHECK(same.err == "error: cannot write 'a.exr': it is the picture to be rendered again\n");
+    CHECK(read_bytes(folder / "a.exr") == bytes);
+    CHECK(folder.run({"rerun", "a.exr"}).exit_code == 2);
+    CHECK(folder.run({"rerun", "none.exr", "-o", "b.exr"}).exit_code == 1);
+}
