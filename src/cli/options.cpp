@@ -12,7 +12,9 @@ namespace plumb {
 namespace {
 
 constexpr std::pair<std::string_view, Verb> verb_names[] = {
-    {"types", Verb::types}, {"info", Verb::info}, {"replay", Verb::replay}};
+    {"types", Verb::types}, {"info", Verb::info}, {"replay", Verb::replay}, {"test", Verb::test}};
+
+constexpr int max_subjects = 100000;
 
 std::string_view name_of(Verb verb)
 {
@@ -81,7 +83,12 @@ void check_outputs(const Options& options)
 
 const char* subject_name(Verb verb)
 {
-    return verb == Verb::types ? "NAME" : verb == Verb::info ? "IMAGE" : "SCENE";
+    switch (verb) {
+    case Verb::types: return "NAME";
+    case Verb::info: return "IMAGE";
+    case Verb::test: return "FILE";
+    default: return "SCENE";
+    }
 }
 
 // CLI11 says "--spp: 1 required TEXT missing" or "quiet was given a disallowed flag override".
@@ -132,7 +139,9 @@ Options parse_options(std::vector<std::string> words)
     CLI::App app;
     app.set_help_flag();
     app.allow_extras();
-    CLI::Option* subject = app.add_option(subject_name(options.verb))->allow_extra_args(false);
+    CLI::Option* subject =
+        app.add_option(subject_name(options.verb))->allow_extra_args(options.verb == Verb::test);
+    if (options.verb == Verb::test) subject->expected(1, max_subjects);
     std::vector<std::pair<const OptionRow*, CLI::Option*>> given;
     for (const OptionRow& row : option_rows()) {
         if (!row.goes_with(options.verb)) continue;
@@ -155,6 +164,7 @@ Options parse_options(std::vector<std::string> words)
     }
 
     if (subject->count() > 0) options.subject = subject->results().front();
+    if (options.verb == Verb::test) options.subjects = subject->results();
     for (const auto& [row, option] : given)
         if (option->count() > 0) apply(*row, option->results(), options);
     reject_remaining(options, app.remaining());
@@ -162,7 +172,9 @@ Options parse_options(std::vector<std::string> words)
 
     if (options.subject.empty() && options.verb != Verb::types)
         throw UsageError(fmt::format("no {} given; 'renderer --help' shows how",
-                                     options.verb == Verb::info ? "image" : "scene file"));
+                                     options.verb == Verb::info   ? "image"
+                                     : options.verb == Verb::test ? "test file"
+                                                                  : "scene file"));
     if (options.verb == Verb::replay)
         for (const auto& [row, option] : given)
             if (row->topic == Topic::path && option->count() == 0)

@@ -11,7 +11,7 @@
 
 namespace plumb {
 
-enum class Verb { render, types, info, replay };
+enum class Verb { render, types, info, replay, test };
 
 // The command line makes no sense: main() prints the message and exits with 2.
 class UsageError : public std::runtime_error {
@@ -23,9 +23,10 @@ struct Options {
     Verb verb = Verb::render;
     bool help = false;
     bool version = false;
-    std::string subject;              // the scene, the image or the plugin's name; empty: all plugins
-    std::vector<std::string> outputs; // none: <scene>_<spp>.exr and .png
-    std::string json;                 // empty: no report; "-": standard output
+    std::string subject;               // the scene, the image or the plugin's name; empty: all plugins
+    std::vector<std::string> subjects; // of `test`: the files
+    std::vector<std::string> outputs;  // none: <scene>_<spp>.exr and .png
+    std::string json;                  // empty: no report; "-": standard output
     float exposure = 0.f;
     bool quiet = false;
     bool verbose = false;
