@@ -13,17 +13,19 @@ import sys
 from pathlib import Path
 
 # From the bottom to the top.
-LAYERS = ["math", "core", "interfaces", "plugins", "scene", "integrators", "render", "scene_file", "cli"]
+LAYERS = ["math", "core", "interfaces", "plugins", "scene", "integrators", "render", "scene_file", "course_tests",
+          "cli"]
 
 # include/plumb/NAME.h, and src/**/NAME.cpp beside it, belong to a layer by name.
 HEADERS = {
     "math": "math color elementary frame ray transform",
     "core": "dialect distribution error fixed_point fresnel hash image intersection mesh microfacet sampling "
-            "version",
+            "statistics version",
     "interfaces": "bsdf camera emitter filter integrator params sampler shape surface texture",
     "scene": "scene tracer",
     "render": "evidence film render",
-    "scene_file": "load scene_file",
+    "scene_file": "load scene_file test_file",
+    "course_tests": "course_test",
 }
 
 # Files below src/ belong to a layer by folder. An inner folder goes before the one around it.
@@ -42,6 +44,7 @@ FOLDERS = {
     "src/integrators": "integrators",
     "src/render": "render",
     "src/scene_file": "scene_file",
+    "src/course_tests": "course_tests",
     "src/cli": "cli",
     "src/math": "math",
 }

@@ -12,6 +12,7 @@ void types_command(const Options& options);
 void info_command(const Options& options);
 void replay_command(const Options& options);
 void rerun_command(const Options& options);
+int test_command(const Options& options); // returns the exit code: 3 if a test failed
 
 // Renders a loaded scene, and writes pictures and report.
 void render_and_write(const Options& options, const LoadedScene& scene);

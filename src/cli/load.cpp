@@ -2,6 +2,7 @@
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "cli/text.h"
+#include "cli/verbs.h"
 
 #include <fmt/format.h>
 

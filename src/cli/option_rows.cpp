@@ -2,6 +2,7 @@
 #include "cli/option_rows.h"
 
 #include "cli/values.h"
+#include "cli/verbs.h"
 
 #include <fmt/format.h>
 
@@ -19,7 +20,8 @@ constexpr unsigned replay_only = verb_bit(Verb::replay);
 constexpr unsigned rerun_only = verb_bit(Verb::rerun);
 constexpr unsigned rendering = render_only | rerun_only;
 constexpr unsigned both = render_only | replay_only;
-constexpr unsigned every_verb = both | rerun_only | verb_bit(Verb::types) | verb_bit(Verb::info);
+constexpr unsigned test_only = verb_bit(Verb::test);
+constexpr unsigned every_verb = ~0u;
 
 using Name = std::string_view;
 using Text = const std::string&;
@@ -50,12 +52,12 @@ const OptionRow rows[] = {
      "leave the error bars out of .exr files: variance.R, variance.G,\n"
      "variance.B and contributing",
      [](Options& o, Name, Text) { o.variance = false; }},
-    {Topic::output, rendering, "--json", "FILE", "write a report of the run; - is standard output",
-     [](Options& o, Name, Text t) { o.json = t; }},
+    {Topic::output, rendering | test_only, "--json", "FILE",
+     "write a report of the run; - is standard output", [](Options& o, Name, Text t) { o.json = t; }},
 
     {Topic::picture, both, "--spp", "N", "samples per pixel (default: the scene's)",
      [](Options& o, Name n, Text t) { o.load.samples_per_pixel = parse_integer(n, t, 1, film_max_samples); }},
-    {Topic::picture, both, "--seed", "N", "of the random numbers, 64 bits (default 0)",
+    {Topic::picture, both | test_only, "--seed", "N", "of the random numbers, 64 bits (default 0)",
      [](Options& o, Name n, Text t) { o.render.seed = parse_integer(n, t, 0, UINT64_MAX); }},
     {Topic::picture, both, "--size", "WxH", "resolution (default: the scene's)",
      [](Options& o, Name n, Text t) { o.load.resolution = parse_size(n, t); }},
@@ -66,13 +68,14 @@ const OptionRow rows[] = {
     {Topic::picture, both, "--sampler", "TYPE", "instead of the scene's",
      [](Options& o, Name, Text t) { o.load.sampler = t; }},
 
-    {Topic::scene, both, "-D,--define", "NAME=VALUE", "value of $NAME in the scene file; may be repeated",
-     define, true},
-    {Topic::scene, both, "--dialect", "NAME", "auto, plumb, epfl, eth, zaragoza or mcgill (default auto)",
+    {Topic::scene, both | test_only, "-D,--define", "NAME=VALUE",
+     "value of $NAME in the scene file; may be repeated", define, true},
+    {Topic::scene, both | test_only, "--dialect", "NAME",
+     "auto, plumb, epfl, eth, zaragoza or mcgill (default auto)",
      [](Options& o, Name n, Text t) {
          o.load.dialect = dialect_from_string(parse_word(n, t, dialect_words()));
      }},
-    {Topic::scene, both, "--emitters", "WHAT", "scatter or absorb the light that meets them",
+    {Topic::scene, both | test_only, "--emitters", "WHAT", "scatter or absorb the light that meets them",
      [](Options& o, Name n, Text t) {
          o.load.emitters_absorb = parse_word(n, t, {"scatter", "absorb"}) == "absorb";
      }},
@@ -80,9 +83,9 @@ const OptionRow rows[] = {
      [](Options& o, Name n, Text t) {
          o.load.mirrored_view = parse_word(n, t, {"on", "off"}) == "on";
      }},
-    {Topic::scene, both, "--envmap-scale", "X", "multiply environment images by X",
+    {Topic::scene, both | test_only, "--envmap-scale", "X", "multiply environment images by X",
      [](Options& o, Name n, Text t) { o.load.environment_scale = parse_number(n, t, 0.f, 1e30f); }},
-    {Topic::scene, both, "--lenient", "", "unknown parameters are warnings, not errors",
+    {Topic::scene, both | test_only, "--lenient", "", "unknown parameters are warnings, not errors",
      [](Options& o, Name, Text) { o.load.lenient = true; }},
 
     {Topic::scene, rerun_only, "--scene", "FILE", "where the scene file lies now",
@@ -91,13 +94,14 @@ const OptionRow rows[] = {
          o.scene = t;
      }},
 
-    {Topic::running, rendering, "-t,--threads", "N", "how many (default: all there are)",
+    {Topic::running, rendering | test_only, "-t,--threads", "N", "how many (default: all there are)",
      [](Options& o, Name n, Text t) { o.render.threads = static_cast<int>(parse_integer(n, t, 1, 1024)); }},
-    {Topic::running, both, "--isa", "NAME", "of Embree: sse2, sse4.2, avx, avx2 or avx512 (default avx2)",
+    {Topic::running, both | test_only, "--isa", "NAME",
+     "of Embree: sse2, sse4.2, avx, avx2 or avx512 (default avx2)",
      [](Options& o, Name n, Text t) {
          o.load.instruction_set = parse_word(n, t, {"sse2", "sse4.2", "avx", "avx2", "avx512"});
      }},
-    {Topic::running, both | rerun_only, "--quiet", "", "print nothing but errors",
+    {Topic::running, both | rerun_only | test_only, "--quiet", "", "print nothing but errors",
      [](Options& o, Name, Text) { o.quiet = true; }},
     {Topic::running, both | rerun_only, "--verbose", "", "print facts about the scene",
      [](Options& o, Name, Text) { o.verbose = true; }},
@@ -144,29 +148,16 @@ std::span<const OptionRow> option_rows()
 
 std::string help_text(Verb verb)
 {
+    const VerbRow& asked = row_of(verb);
     std::string text;
-    switch (verb) {
-    case Verb::render:
-        text =
-            "usage: renderer SCENE [-o IMAGE]... [options]          render a picture\n"
-            "       renderer types [NAME]                           list all plugins, or print one's manual\n"
-            "       renderer info IMAGE                             print what an image's header says\n"
-            "       renderer replay SCENE --pixel X,Y --sample I    print the path of one sample\n"
-            "       renderer rerun IMAGE -o IMAGE                   render a picture again, from its header "
-            "alone\n"
-            "A scene file that is called like a verb is given as ./types.\n";
-        break;
-    case Verb::types: text = "usage: renderer types [NAME]\n"; break;
-    case Verb::info: text = "usage: renderer info IMAGE\n"; break;
-    case Verb::rerun:
-        text = "usage: renderer rerun IMAGE -o IMAGE [options]\n"
-               "Renders a picture of ours again from what its header says, to the same file, byte for byte. "
-               "The scene file is\n"
-               "looked for where it was, from this folder or from the picture's; if it, a mesh, an image or "
-               "this program is not\n"
-               "what it was, the error names it.\n";
-        break;
-    case Verb::replay: text = "usage: renderer replay SCENE --pixel X,Y --sample I [options]\n"; break;
+    if (verb == Verb::render) {
+        for (const VerbRow& row : verb_rows())
+            text +=
+                fmt::format("{} {:<47} {}\n", text.empty() ? "usage:" : "      ", row.command(), row.summary);
+        text += "A scene file that is called like a verb is given as ./types.\n";
+    } else {
+        text = fmt::format("usage: {}\n", asked.command());
+        if (asked.manual) text += asked.manual();
     }
     for (const OptionRow& row : rows) {
         if (!row.goes_with(verb)) continue;

@@ -3,6 +3,7 @@
 
 #include "cli/option_rows.h"
 #include "cli/text.h"
+#include "cli/verbs.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -11,14 +12,9 @@ namespace plumb {
 
 namespace {
 
-constexpr std::pair<std::string_view, Verb> verb_names[] = {
-    {"types", Verb::types}, {"info", Verb::info}, {"replay", Verb::replay}, {"rerun", Verb::rerun}};
-
 std::string_view name_of(Verb verb)
 {
-    for (const auto& [name, value] : verb_names)
-        if (value == verb) return name;
-    return "rendering";
+    return verb == Verb::render ? "rendering" : row_of(verb).name;
 }
 
 // What other renderers call our options, where the spelling is too far off to guess.
@@ -52,17 +48,19 @@ constexpr std::pair<std::string_view, std::string_view> foreign_names[] = {
                          : fmt::format("unknown option '{}'; did you mean '{}'?", name, near));
 }
 
-// What CLI11 could not place.
-void reject_remaining(const Options& options, const std::vector<std::string>& remaining)
+// Words that look like options and are none of ours, and words of which there are too many.
+void reject_words(const Options& options, const std::vector<std::string>& remaining)
 {
     for (const std::string& word : remaining)
         if (word.size() > 1 && word.front() == '-' && word != "--") reject_option(options.verb, word);
-    for (const std::string& word : remaining) {
-        if (word == "--") continue;
-        for (const auto& [name, verb] : verb_names)
-            if (word == name) throw UsageError(fmt::format("the verb '{}' must be the first word", name));
-        throw UsageError(fmt::format("'{}' is one word too many after '{}'", word, options.subject));
-    }
+    const VerbRow& verb = row_of(options.verb);
+    if (options.subjects.size() <= verb.max_subjects) return;
+    const std::string& word = options.subjects[verb.max_subjects];
+    for (const VerbRow& row : verb_rows())
+        if (!row.name.empty() && word == row.name)
+            throw UsageError(fmt::format("the verb '{}' must be the first word", word));
+    throw UsageError(
+        fmt::format("'{}' is one word too many after '{}'", word, options.subjects[verb.max_subjects - 1]));
 }
 
 void check_outputs(const Options& options)
@@ -77,11 +75,6 @@ void check_outputs(const Options& options)
     };
     for (const std::string& file : options.outputs) check(file, "--output");
     if (!options.json.empty() && options.json != "-") check(options.json, "--json");
-}
-
-const char* subject_name(Verb verb)
-{
-    return verb == Verb::types ? "NAME" : verb == Verb::info || verb == Verb::rerun ? "IMAGE" : "SCENE";
 }
 
 // CLI11 says "--spp: 1 required TEXT missing" or "quiet was given a disallowed flag override".
@@ -116,24 +109,18 @@ void apply(const OptionRow& row, const std::vector<std::string>& values, Options
 
 } // namespace
 
-std::string_view closest_verb(std::string_view word)
-{
-    std::vector<std::string_view> names;
-    for (const auto& [name, verb] : verb_names) names.push_back(name);
-    return closest_name(word, names);
-}
-
 Options parse_options(std::vector<std::string> words)
 {
     Options options;
-    for (const auto& [name, verb] : verb_names)
-        if (!words.empty() && words.front() == name) options.verb = verb;
+    for (const VerbRow& row : verb_rows())
+        if (!words.empty() && !row.name.empty() && words.front() == row.name) options.verb = row.verb;
+    const VerbRow& verb = row_of(options.verb);
     if (options.verb != Verb::render) words.erase(words.begin());
 
     CLI::App app;
     app.set_help_flag();
     app.allow_extras();
-    CLI::Option* subject = app.add_option(subject_name(options.verb))->allow_extra_args(false);
+    CLI::Option* subject = app.add_option("WORD")->allow_extra_args(false);
     std::vector<std::pair<const OptionRow*, CLI::Option*>> given;
     for (const OptionRow& row : option_rows()) {
         if (!row.goes_with(options.verb)) continue;
@@ -155,16 +142,17 @@ Options parse_options(std::vector<std::string> words)
         throw UsageError(problem.what());
     }
 
-    if (subject->count() > 0) options.subject = subject->results().front();
+    options.subjects = subject->results();
+    for (const std::string& word : app.remaining())
+        if (word.size() < 2 || word.front() != '-') options.subjects.push_back(word);
+    if (!options.subjects.empty()) options.subject = options.subjects.front();
     for (const auto& [row, option] : given)
         if (option->count() > 0) apply(*row, option->results(), options);
-    reject_remaining(options, app.remaining());
+    reject_words(options, app.remaining());
     if (options.help || options.version) return options;
 
-    if (options.subject.empty() && options.verb != Verb::types)
-        throw UsageError(
-            fmt::format("no {} given; 'renderer --help' shows how",
-                        subject_name(options.verb) == std::string_view("IMAGE") ? "image" : "scene file"));
+    if (options.subjects.size() < verb.min_subjects)
+        throw UsageError(fmt::format("no {} given; 'renderer --help' shows how", verb.subject));
     if (options.verb == Verb::rerun && options.outputs.empty())
         throw UsageError("rerun needs -o,--output FILE: it does not guess which file to write");
     if (options.verb == Verb::replay)

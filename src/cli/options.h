@@ -11,7 +11,7 @@
 
 namespace plumb {
 
-enum class Verb { render, types, info, replay, rerun };
+enum class Verb { render, types, info, replay, rerun, test };
 
 // The command line makes no sense: main() prints the message and exits with 2.
 class UsageError : public std::runtime_error {
@@ -23,7 +23,9 @@ struct Options {
     Verb verb = Verb::render;
     bool help = false;
     bool version = false;
-    std::string subject; // the scene, the image or the plugin's name; empty: all plugins
+    std::vector<std::string>
+        subjects;        // the words that are no options: scenes, images or the name of a plugin
+    std::string subject; // the first of them; empty: none
     std::string scene;   // where the scene of an image to be rendered again lies now; empty: not said
     std::vector<std::string> outputs; // none: <scene>_<spp>.exr and .png
     std::string json;                 // empty: no report; "-": standard output
@@ -47,8 +49,5 @@ Options parse_options(std::vector<std::string> words);
 
 // What --help prints.
 std::string help_text(Verb verb);
-
-// The verb that `word` is or could be a slip of; else empty.
-std::string_view closest_verb(std::string_view word);
 
 } // namespace plumb

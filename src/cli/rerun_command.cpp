@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cli/commands.h"
 #include "cli/header.h"
+#include "cli/manuals.h"
 #include "cli/text.h"
 
 #include <map>
@@ -103,6 +104,15 @@ void check_inputs(const LoadedScene& scene, const Recipe& recipe, const Options&
 }
 
 } // namespace
+
+std::string_view rerun_manual()
+{
+    return "Renders a picture of ours again from what its header says, to the same file, byte for byte. The "
+           "scene file\n"
+           "is looked for where it was, seen from this folder or from the picture's; if it, a mesh, an image "
+           "or this\n"
+           "program is not what it was, the error names it.\n";
+}
 
 void rerun_command(const Options& run)
 {

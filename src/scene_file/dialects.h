@@ -8,7 +8,7 @@
 
 namespace plumb {
 
-// What the evidence in a file says, a pure function of it.
+// What the evidence in a file, a <scene> or a <test> of scenes, says: a pure function of it.
 struct DialectEvidence {
     DialectName name = DialectName::zaragoza;
     std::string reason;

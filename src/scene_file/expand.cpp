@@ -61,9 +61,7 @@ public:
     {
         files_.push_back(root.file);
         open_.push_back(identity(root.file->path()));
-        std::vector<Element> children;
-        for (Element& child : root.children) gather(std::move(child), children);
-        root.children = std::move(children);
+        gather_children(root);
         substitute_all(root);
         reject_unused_definitions();
         return {std::move(root), std::move(files_)};
@@ -77,8 +75,16 @@ private:
         return status ? path : canonical;
     }
 
+    void gather_children(Element& element)
+    {
+        std::vector<Element> children;
+        for (Element& child : element.children) gather(std::move(child), children);
+        element.children = std::move(children);
+    }
+
     void gather(Element child, std::vector<Element>& children)
     {
+        if (child.tag == "scene") gather_children(child); // of a <test>
         if (child.tag == "default")
             define(child);
         else if (child.tag == "include")

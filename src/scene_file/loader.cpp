@@ -4,8 +4,8 @@
 #include "scene_file/build.h"
 #include "scene_file/dialects.h"
 #include "scene_file/expand.h"
+#include "scene_file/file_order.h"
 
-#include <algorithm>
 #include <chrono>
 #include <fstream>
 
@@ -20,38 +20,6 @@ using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start)
 {
     return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-// Errors and warnings in the order of the files and their lines; a note stays behind what it belongs to.
-std::vector<Diagnostic> in_file_order(const std::vector<Diagnostic>& diagnostics,
-                                      const std::vector<std::shared_ptr<const TextFile>>& files)
-{
-    struct Group {
-        std::size_t file = 0; // errors without a place come first
-        int line = 0;
-        int column = 0;
-        std::vector<Diagnostic> members;
-    };
-    std::vector<Group> groups;
-    for (const Diagnostic& diagnostic : diagnostics) {
-        if (diagnostic.severity != Severity::note || groups.empty()) groups.emplace_back();
-        Group& group = groups.back();
-        // What is wrong in a mesh's own lines stands where the scene file names the mesh.
-        for (std::size_t i = 0; i < files.size() && group.file == 0; ++i) {
-            if (files[i]->path().string() != diagnostic.location.file) continue;
-            group.file = i + 1;
-            group.line = diagnostic.location.line;
-            group.column = diagnostic.location.column;
-        }
-        group.members.push_back(diagnostic);
-    }
-    std::stable_sort(groups.begin(), groups.end(), [](const Group& a, const Group& b) {
-        return std::tie(a.file, a.line, a.column) < std::tie(b.file, b.line, b.column);
-    });
-    std::vector<Diagnostic> sorted;
-    for (Group& group : groups)
-        std::move(group.members.begin(), group.members.end(), std::back_inserter(sorted));
-    return sorted;
 }
 
 std::string hash_of_file(const std::filesystem::path& path)
@@ -103,7 +71,7 @@ bool check_root(const Element& root, Diagnostics& diagnostics)
     if (root.tag == "scene") return true;
     diagnostics.error(root.place(),
                       root.tag == "test"
-                          ? std::string("a <test> file is not a scene; only <scene> files can be rendered")
+                          ? std::string("a <test> file is not a scene; 'renderer test FILE' runs it")
                           : fmt::format("the root of a scene file must be <scene>, not <{}>", root.tag));
     return false;
 }

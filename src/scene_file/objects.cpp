@@ -65,6 +65,8 @@ ObjectReader::ObjectReader(const Element& element, LoadContext& context,
     params_.set_lenient(context.lenient);
     if (element.tag == "texture")
         check_attributes(element, {"type", "name"}, {"id"}, context.diagnostics);
+    else if (element.tag == "test")
+        check_attributes(element, {"type"}, {"dialect", "name", "id"}, context.diagnostics);
     else
         check_attributes(element, {"type"}, {"name", "id"}, context.diagnostics);
     read_children(child_tags);

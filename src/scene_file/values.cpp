@@ -92,6 +92,16 @@ public:
         return value;
     }
 
+    // Complains of each that is wrong.
+    std::optional<std::vector<double>> numbers(const std::vector<Token>& tokens) const
+    {
+        std::vector<double> numbers;
+        for (const Token& token : tokens)
+            if (const auto value = number(token)) numbers.push_back(*value);
+        if (numbers.size() != tokens.size()) return {};
+        return numbers;
+    }
+
 private:
     const Element& element_;
     const Attribute& attribute_;
@@ -134,18 +144,19 @@ std::optional<std::vector<double>> read_numbers(const Element& element, const At
 {
     const ValueReader reader(element, attribute, diagnostics);
     const std::vector<Token> tokens = split(attribute.value);
-    std::vector<double> numbers;
-    bool good = true;
-    for (const Token& token : tokens) {
-        if (const auto number = reader.number(token))
-            numbers.push_back(*number);
-        else
-            good = false;
-    }
+    const auto numbers = reader.numbers(tokens);
     if (std::find(counts.begin(), counts.end(), tokens.size()) == counts.end())
         return reader.fail(fmt::format("expected {} numbers, not {}", counts_text(counts), tokens.size()));
-    if (!good) return {};
     return numbers;
+}
+
+std::optional<std::vector<double>> read_number_list(const Element& element, const Attribute& attribute,
+                                                    Diagnostics& diagnostics)
+{
+    const ValueReader reader(element, attribute, diagnostics);
+    const std::vector<Token> tokens = split(attribute.value);
+    if (tokens.empty()) return reader.fail("expected a list of numbers, not an empty value");
+    return reader.numbers(tokens);
 }
 
 std::optional<bool> read_boolean(const Element& element, const Attribute& attribute, Diagnostics& diagnostics)

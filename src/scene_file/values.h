@@ -16,6 +16,9 @@ std::optional<double> read_number(const Element& element, const Attribute& attri
 std::optional<std::vector<double>> read_numbers(const Element& element, const Attribute& attribute,
                                                 std::initializer_list<std::size_t> counts,
                                                 Diagnostics& diagnostics);
+// Any number of them, at least one.
+std::optional<std::vector<double>> read_number_list(const Element& element, const Attribute& attribute,
+                                                    Diagnostics& diagnostics);
 // true or false, in upper or lower case.
 std::optional<bool> read_boolean(const Element& element, const Attribute& attribute,
                                  Diagnostics& diagnostics);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cli/option_rows.h"
 #include "cli/options.h"
+#include "cli/verbs.h"
 #include "support/catch.h"
 
 #include <cctype>

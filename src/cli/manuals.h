@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// What --help prints of a verb between its usage and its options.
+
+#include <string_view>
+
+namespace plumb {
+
+std::string_view rerun_manual();
+std::string_view test_manual();
+
+} // namespace plumb

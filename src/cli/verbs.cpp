@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include "cli/verbs.h"
+
+#include "cli/manuals.h"
+#include "cli/text.h"
+
+#include <fmt/format.h>
+
+namespace plumb {
+
+namespace {
+
+constexpr std::size_t any_number = 100000;
+
+constexpr VerbRow rows[] = {
+    {Verb::render, "", "SCENE [-o IMAGE]... [options]", "render a picture", "scene file", 1, 1, nullptr},
+    {Verb::types, "types", "[NAME]", "list all plugins, or print one's manual", "name", 0, 1, nullptr},
+    {Verb::info, "info", "IMAGE", "print what an image's header says", "image", 1, 1, nullptr},
+    {Verb::replay, "replay", "SCENE --pixel X,Y --sample I [options]", "print the path of one sample",
+     "scene file", 1, 1, nullptr},
+    {Verb::rerun, "rerun", "IMAGE -o IMAGE [options]", "render a picture again from its header", "image", 1,
+     1, rerun_manual},
+    {Verb::test, "test", "FILE... [options]", "run a course's statistical tests", "test file", 1, any_number,
+     test_manual},
+};
+
+} // namespace
+
+std::string VerbRow::command() const
+{
+    return fmt::format("renderer {}{}{}", name, name.empty() ? "" : " ", arguments);
+}
+
+std::span<const VerbRow> verb_rows()
+{
+    return rows;
+}
+
+const VerbRow& row_of(Verb verb)
+{
+    for (const VerbRow& row : rows)
+        if (row.verb == verb) return row;
+    return rows[0];
+}
+
+std::string_view closest_verb(std::string_view word)
+{
+    std::vector<std::string_view> names;
+    for (const VerbRow& row : rows)
+        if (!row.name.empty()) names.push_back(row.name);
+    return closest_name(word, names);
+}
+
+} // namespace plumb

@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: MIT
+#include "plumb/test_file.h"
+
+#include "scene_file/build.h"
+#include "scene_file/dialects.h"
+#include "scene_file/expand.h"
+#include "scene_file/file_order.h"
+#include "scene_file/values.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace plumb {
+
+namespace {
+
+constexpr double most_samples = static_cast<double>(max_samples_per_pixel);
+constexpr std::uint64_t samples_per_cell = 5000; // where a chi2test does not say how many
+
+const Element* first_child(const Element& element, std::string_view tag)
+{
+    const auto found = std::find_if(element.children.begin(), element.children.end(),
+                                    [&](const Element& child) { return child.tag == tag; });
+    return found == element.children.end() ? nullptr : &*found;
+}
+
+// What an element was written as: "bsdf 'diffuse' (line 4)", with the file where it is another one.
+std::string element_name(const Element& element, const Element& root)
+{
+    const SourceLocation at = element.place();
+    const std::string type = element.value("type");
+    return fmt::format("{}{} ({} {})", element.tag, type.empty() ? "" : fmt::format(" '{}'", type),
+                       element.file == root.file ? "line"
+                                                 : std::filesystem::path(at.file).filename().string() + ":",
+                       at.line);
+}
+
+class TestBuilder {
+public:
+    TestBuilder(const Element& root, const LoadOptions& options, Diagnostics& diagnostics)
+        : root_(root), options_(options), diagnostics_(diagnostics)
+    {}
+
+    TestFile build()
+    {
+        const Dialect neutral = Dialect::standard(DialectName::plumb); // no parameter of a BSDF depends on it
+        LoadContext context{diagnostics_, neutral, options_.lenient, {}};
+        if (!read_type()) return std::move(test_);
+        read_parameters(context);
+        build_bsdfs(context);
+        build_scenes();
+        if (!diagnostics_.has_errors()) check_counts();
+        make_sampler(neutral);
+        return std::move(test_);
+    }
+
+private:
+    bool is_ttest() const { return test_.type == TestType::ttest; }
+
+    bool read_type()
+    {
+        const Attribute* type = root_.attribute("type");
+        if (type && (type->value == "ttest" || type->value == "chi2test")) {
+            test_.type = type->value == "ttest" ? TestType::ttest : TestType::chi2test;
+            return true;
+        }
+        if (!type)
+            diagnostics_.error(root_.place(), "<test> needs an attribute 'type': ttest or chi2test");
+        else if (!type->broken)
+            diagnostics_.error(
+                root_.value_place(*type),
+                fmt::format("unknown test '{}'{}", type->value, way_out(type->value, {"ttest", "chi2test"})));
+        return false;
+    }
+
+    // --- Parameters ---
+
+    void read_parameters(LoadContext& context)
+    {
+        ObjectReader reader(root_, context, {"bsdf", "scene"});
+        const Params& params = reader.params();
+        test_.significance_level =
+            static_cast<double>(params.number("significanceLevel", 0.01f, Range::open(0.0, 1.0)));
+        if (is_ttest())
+            read_ttest(params);
+        else
+            read_chi2test(params);
+        for (const char* name : {"name", "id"}) params.ignore(name);
+        params.reject_unused();
+    }
+
+    void read_ttest(const Params& params)
+    {
+        test_.sample_count = static_cast<std::uint64_t>(
+            params.integer("sampleCount", 100000, Range::closed(2.0, most_samples)));
+        params.string("references");
+        test_.references = read_list("references");
+        if (first_child(root_, "bsdf")) {
+            params.string("angles");
+            test_.angles = read_list("angles");
+            for (const double angle : test_.angles)
+                if (!(angle >= 0.0 && angle <= 180.0))
+                    params.fail("angles", fmt::format("must be from 0 to 180 degrees, not {}", angle));
+        } else if (params.has("angles")) {
+            params.warn("angles", "angles are for tests of bsdfs; these are not read");
+        }
+    }
+
+    void read_chi2test(const Params& params)
+    {
+        test_.resolution =
+            static_cast<std::size_t>(params.integer("resolution", 10, Range::closed(1.0, 1000.0)));
+        test_.min_expected =
+            static_cast<double>(params.integer("minExpFrequency", 5, Range::closed(0.0, 1e6)));
+        test_.directions =
+            static_cast<std::size_t>(params.integer("testCount", 5, Range::closed(1.0, 1000.0)));
+        const std::int64_t samples = params.integer("sampleCount", -1, Range::closed(-1.0, most_samples));
+        if (samples == 0) params.fail("sampleCount", "must be at least 1, or -1 for 5000 a cell, not 0");
+        const std::uint64_t cells = 2 * static_cast<std::uint64_t>(test_.resolution * test_.resolution);
+        test_.sample_count = samples < 0 ? cells * samples_per_cell : static_cast<std::uint64_t>(samples);
+    }
+
+    // Of the <string> parameter of that name; Params has complained where there is none.
+    std::vector<double> read_list(std::string_view name)
+    {
+        for (const Element& child : root_.children) {
+            const Attribute* value = child.attribute("value");
+            if (child.tag == "string" && child.value("name") == name && value)
+                return read_number_list(child, *value, diagnostics_).value_or(std::vector<double>());
+        }
+        return {};
+    }
+
+    // --- Children ---
+
+    void build_bsdfs(LoadContext& context)
+    {
+        for (const Element& child : root_.children) {
+            if (child.tag != "bsdf") continue;
+            auto bsdf = ObjectReader(child, context).build(bsdf_types());
+            if (bsdf && !is_ttest() && bsdf->lobes().has_any(delta_lobes))
+                diagnostics_.error(
+                    child.place(),
+                    fmt::format("bsdf '{}' scatters into single directions, which have no density; "
+                                "a chi2test cannot test it, a ttest can",
+                                child.value("type")));
+            test_.bsdfs.push_back({std::move(bsdf), element_name(child, root_)});
+        }
+    }
+
+    void build_scenes()
+    {
+        const Element* scene = first_child(root_, "scene");
+        const Element* bsdf = first_child(root_, "bsdf");
+        if (scene && !is_ttest())
+            diagnostics_.error(scene->place(), "a chi2test cannot contain a <scene>; it tests bsdfs");
+        else if (scene && bsdf)
+            diagnostics_.error(std::max(scene, bsdf)->place(),
+                               "a ttest can contain bsdfs or scenes, not both; make two files of it");
+        if (!scene) return;
+
+        // All scenes are of one course: one that does not say which is read as the evidence in the file suggests.
+        const DialectWishes wishes{options_.dialect, options_.emitters_absorb, options_.mirrored_view,
+                                   options_.environment_scale};
+        const auto undecided =
+            std::find_if(root_.children.begin(), root_.children.end(), [](const Element& child) {
+                return child.tag == "scene" && !child.attribute("dialect");
+            });
+        Dialect common;
+        if (undecided != root_.children.end()) common = decide_dialect(root_, wishes, diagnostics_);
+        for (const Element& child : root_.children)
+            if (child.tag == "scene")
+                build_scene_of_test(
+                    child, child.attribute("dialect") ? decide_dialect(child, wishes, diagnostics_) : common);
+    }
+
+    void build_scene_of_test(const Element& element, const Dialect& dialect)
+    {
+        LoadContext context{diagnostics_, dialect, options_.lenient, {}};
+        SceneParts parts = build_scene(element, options_, context);
+        if (diagnostics_.has_errors()) return;
+        Scene scene(std::move(parts.objects), std::move(parts.lights),
+                    {dialect.emitters_absorb, options_.instruction_set});
+        try {
+            parts.integrator->prepare(scene);
+        } catch (const Error& error) {
+            diagnostics_.error(parts.integrator_at, error.what());
+            return;
+        }
+        test_.scenes.push_back({{std::move(scene), std::move(parts.camera), std::move(parts.integrator),
+                                 std::move(parts.sampler), std::move(parts.filter)},
+                                dialect,
+                                fmt::format("{}, {}", element_name(element, root_), parts.integrator_type)});
+    }
+
+    // --- The whole ---
+
+    void check_counts()
+    {
+        if (test_.bsdfs.empty() && test_.scenes.empty()) {
+            diagnostics_.error(root_.place(), is_ttest() ? "the test has neither a <bsdf> nor a <scene>"
+                                                         : "the test has no <bsdf>");
+            return;
+        }
+        if (is_ttest()) check_references();
+        if (test_.test_count() > max_tests)
+            diagnostics_.error(root_.place(), fmt::format("the file holds {} tests; it can hold {}",
+                                                          test_.test_count(), max_tests));
+    }
+
+    void check_references()
+    {
+        const std::size_t bsdfs = test_.bsdfs.size(), angles = test_.angles.size();
+        const std::size_t expected = bsdfs > 0 ? bsdfs * angles : test_.scenes.size();
+        if (test_.references.size() == expected) return;
+        const std::string wanted =
+            bsdfs > 1   ? fmt::format("{} numbers, one for each of {} angles of each of {} bsdfs", expected,
+                                      angles, bsdfs)
+            : bsdfs > 0 ? fmt::format("one number for each angle, {} in all", angles)
+                        : fmt::format("one number for each scene, {} in all", expected);
+        for (const Element& child : root_.children)
+            if (child.value("name") == "references" && child.attribute("value"))
+                diagnostics_.error(
+                    child.value_place(*child.attribute("value")),
+                    fmt::format("references must hold {}, not {}", wanted, test_.references.size()));
+    }
+
+    void make_sampler(const Dialect& dialect)
+    {
+        const Params params("sampler", "independent", root_.place(), diagnostics_, dialect,
+                            root_.file->folder());
+        for (const Entry<Sampler>& entry : sampler_types())
+            if (entry.name == "independent") test_.sampler = entry.build(params);
+    }
+
+    const Element& root_;
+    const LoadOptions& options_;
+    Diagnostics& diagnostics_;
+    TestFile test_;
+};
+
+bool check_root(const Element& root, Diagnostics& diagnostics)
+{
+    if (root.tag == "test") return true;
+    diagnostics.error(root.place(),
+                      root.tag == "scene"
+                          ? std::string("a <scene> file is not a test; 'renderer FILE' renders it")
+                          : fmt::format("the root of a test file must be <test>, not <{}>", root.tag));
+    return false;
+}
+
+} // namespace
+
+TestFile load_test(const std::filesystem::path& path, const LoadOptions& options)
+{
+    Diagnostics diagnostics;
+    auto document = parse_document(path, read_text(path), diagnostics);
+    if (!document || !check_root(*document, diagnostics)) throw SceneError(diagnostics.all());
+    const Expansion expansion =
+        expand(*std::move(document), {options.definitions.begin(), options.definitions.end()}, diagnostics);
+    TestFile test = TestBuilder(expansion.root, options, diagnostics).build();
+    auto found = in_file_order(diagnostics.all(), expansion.files);
+    if (diagnostics.has_errors()) throw SceneError(std::move(found));
+    test.warnings = std::move(found);
+    return test;
+}
+
+} // namespace plumb
