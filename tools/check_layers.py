@@ -13,7 +13,7 @@ import sys
 from pathlib import Path
 
 # From the bottom to the top.
-LAYERS = ["math", "core", "interfaces", "plugins", "scene", "integrators", "render", "scene_file", "cli"]
+LAYERS = ["math", "core", "interfaces", "plugins", "scene", "integrators", "render", "scene_file", "compare", "cli"]
 
 # include/plumb/NAME.h, and src/**/NAME.cpp beside it, belong to a layer by name.
 HEADERS = {
@@ -24,6 +24,7 @@ HEADERS = {
     "scene": "scene tracer",
     "render": "film render",
     "scene_file": "load scene_file",
+    "compare": "compare flip",
 }
 
 # Files below src/ belong to a layer by folder. An inner folder goes before the one around it.
@@ -42,6 +43,7 @@ FOLDERS = {
     "src/integrators": "integrators",
     "src/render": "render",
     "src/scene_file": "scene_file",
+    "src/compare": "compare",
     "src/cli": "cli",
     "src/math": "math",
 }

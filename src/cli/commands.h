@@ -11,6 +11,7 @@ void render_command(const Options& options);
 void types_command(const Options& options);
 void info_command(const Options& options);
 void replay_command(const Options& options);
+int compare_command(const Options& options); // the exit code
 
 // Loads the scene that the options name, and logs its dialect and its warnings unless --quiet.
 LoadedScene load_and_log(const Options& options);

@@ -11,16 +11,25 @@ using namespace plumb;
 constexpr int input_error = 1;
 constexpr int usage_error = 2;
 
-void run(const Options& options)
+// The exit code.
+int run(const Options& options)
 {
-    if (options.help) return print_output(help_text(options.verb));
-    if (options.version) return print_output("Plumb " PLUMB_VERSION "\n");
-    switch (options.verb) {
-    case Verb::render: return render_command(options);
-    case Verb::types: return types_command(options);
-    case Verb::info: return info_command(options);
-    case Verb::replay: return replay_command(options);
+    if (options.help) {
+        print_output(help_text(options.verb));
+        return 0;
     }
+    if (options.version) {
+        print_output("Plumb " PLUMB_VERSION "\n");
+        return 0;
+    }
+    switch (options.verb) {
+    case Verb::render: render_command(options); break;
+    case Verb::types: types_command(options); break;
+    case Verb::info: info_command(options); break;
+    case Verb::replay: replay_command(options); break;
+    case Verb::compare: return compare_command(options);
+    }
+    return 0;
 }
 
 int complain(int exit_code, const std::string& message)
@@ -37,9 +46,9 @@ int main(int argc, char** argv)
     Options options;
     try {
         options = parse_options({argv + (argc > 0), argv + argc});
-        run(options);
+        const int exit_code = run(options);
         finish_output();
-        return 0;
+        return exit_code;
     } catch (const UsageError& error) {
         return complain(usage_error, error.what());
     } catch (const SceneError& error) {

@@ -12,7 +12,7 @@ namespace plumb {
 namespace {
 
 constexpr std::pair<std::string_view, Verb> verb_names[] = {
-    {"types", Verb::types}, {"info", Verb::info}, {"replay", Verb::replay}};
+    {"types", Verb::types}, {"info", Verb::info}, {"replay", Verb::replay}, {"compare", Verb::compare}};
 
 std::string_view name_of(Verb verb)
 {
@@ -77,11 +77,17 @@ void check_outputs(const Options& options)
     };
     for (const std::string& file : options.outputs) check(file, "--output");
     if (!options.json.empty() && options.json != "-") check(options.json, "--json");
+    if (!options.compare.difference.empty()) check(options.compare.difference, "--diff");
 }
 
 const char* subject_name(Verb verb)
 {
-    return verb == Verb::types ? "NAME" : verb == Verb::info ? "IMAGE" : "SCENE";
+    switch (verb) {
+    case Verb::types: return "NAME";
+    case Verb::info: return "IMAGE";
+    case Verb::compare: return "A";
+    default: return "SCENE";
+    }
 }
 
 // CLI11 says "--spp: 1 required TEXT missing" or "quiet was given a disallowed flag override".
@@ -133,6 +139,8 @@ Options parse_options(std::vector<std::string> words)
     app.set_help_flag();
     app.allow_extras();
     CLI::Option* subject = app.add_option(subject_name(options.verb))->allow_extra_args(false);
+    CLI::Option* reference =
+        options.verb == Verb::compare ? app.add_option("B")->allow_extra_args(false) : nullptr;
     std::vector<std::pair<const OptionRow*, CLI::Option*>> given;
     for (const OptionRow& row : option_rows()) {
         if (!row.goes_with(options.verb)) continue;
@@ -155,11 +163,14 @@ Options parse_options(std::vector<std::string> words)
     }
 
     if (subject->count() > 0) options.subject = subject->results().front();
+    if (reference && reference->count() > 0) options.compare.reference = reference->results().front();
     for (const auto& [row, option] : given)
         if (option->count() > 0) apply(*row, option->results(), options);
     reject_remaining(options, app.remaining());
     if (options.help || options.version) return options;
 
+    if (options.verb == Verb::compare && options.compare.reference.empty())
+        throw UsageError("compare needs two images; 'renderer compare --help' shows how");
     if (options.subject.empty() && options.verb != Verb::types)
         throw UsageError(fmt::format("no {} given; 'renderer --help' shows how",
                                      options.verb == Verb::info ? "image" : "scene file"));
