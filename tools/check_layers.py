@@ -14,7 +14,7 @@ from pathlib import Path
 
 # From the bottom to the top.
 LAYERS = ["math", "core", "interfaces", "plugins", "scene", "integrators", "render", "scene_file", "course_tests",
-          "cli"]
+          "compare", "cli"]
 
 # include/plumb/NAME.h, and src/**/NAME.cpp beside it, belong to a layer by name.
 HEADERS = {
@@ -26,6 +26,7 @@ HEADERS = {
     "render": "evidence film render",
     "scene_file": "load scene_file test_file",
     "course_tests": "course_test",
+    "compare": "compare flip",
 }
 
 # Files below src/ belong to a layer by folder. An inner folder goes before the one around it.
@@ -45,6 +46,7 @@ FOLDERS = {
     "src/render": "render",
     "src/scene_file": "scene_file",
     "src/course_tests": "course_tests",
+    "src/compare": "compare",
     "src/cli": "cli",
     "src/math": "math",
 }

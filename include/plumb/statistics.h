@@ -22,6 +22,7 @@ double regularised_beta(double a, double b, double x, double y);
 double chi2_survival(double statistic, double degrees_of_freedom);
 double normal_survival(double z);
 double student_t_two_sided(double t, double degrees_of_freedom); // chance of a larger |t|
+double student_t_quantile(double p, double degrees_of_freedom);  // the t >= 0 of which that is p; 0 < p <= 1
 
 // The level of each of `tests` independent tests that together fail by chance with probability `level` (Sidak 1967).
 double sidak_level(double level, std::size_t tests);

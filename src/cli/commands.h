@@ -13,6 +13,8 @@ void info_command(const Options& options);
 void replay_command(const Options& options);
 void rerun_command(const Options& options);
 int test_command(const Options& options); // returns the exit code: 3 if a test failed
+int compare_command(
+    const Options& options); // returns the exit code: 3 if they differ, 4 if that is not known
 
 // Renders a loaded scene, and writes pictures and report.
 void render_and_write(const Options& options, const LoadedScene& scene);

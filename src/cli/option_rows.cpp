@@ -21,6 +21,7 @@ constexpr unsigned rerun_only = verb_bit(Verb::rerun);
 constexpr unsigned rendering = render_only | rerun_only;
 constexpr unsigned both = render_only | replay_only;
 constexpr unsigned test_only = verb_bit(Verb::test);
+constexpr unsigned compare_only = verb_bit(Verb::compare);
 constexpr unsigned every_verb = ~0u;
 
 using Name = std::string_view;
@@ -40,6 +41,21 @@ void define(Options& options, Name name, Text text)
         throw UsageError(fmt::format("{} {} is given twice", name, variable));
 }
 
+// "rmse=0.01,flip=0.05", added to the limits there are.
+void add_limits(Options& options, Name name, Text text)
+{
+    for (std::size_t start = 0; start <= text.size();) {
+        const std::size_t end = std::min(text.find(',', start), text.size());
+        const auto [metric, value] = parse_definition(name, text.substr(start, end - start));
+        parse_word(name, metric, {"mse", "rmse", "relmse", "mae", "max", "psnr", "flip"});
+        const double limit = parse_double(fmt::format("{} {}", name, metric), value, -1e30, 1e30);
+        for (const Threshold& other : options.compare.how.thresholds)
+            if (other.metric == metric) throw UsageError(fmt::format("{} {} is given twice", name, metric));
+        options.compare.how.thresholds.push_back({metric, limit});
+        start = end + 1;
+    }
+}
+
 // Every option, in the order of --help.
 const OptionRow rows[] = {
     {Topic::output, rendering, "-o,--output", "FILE",
@@ -52,8 +68,15 @@ const OptionRow rows[] = {
      "leave the error bars out of .exr files: variance.R, variance.G,\n"
      "variance.B and contributing",
      [](Options& o, Name, Text) { o.variance = false; }},
-    {Topic::output, rendering | test_only, "--json", "FILE",
+    {Topic::output, rendering | test_only | compare_only, "--json", "FILE",
      "write a report of the run; - is standard output", [](Options& o, Name, Text t) { o.json = t; }},
+    {Topic::output, compare_only, "--diff", "FILE", "write the difference in false colours, with a scale",
+     [](Options& o, Name, Text t) { o.compare.difference = t; }},
+    {Topic::output, compare_only, "--diff-of", "WHAT",
+     "error: the largest |A - B| of the channels (default); or flip",
+     [](Options& o, Name n, Text t) {
+         o.compare.difference_is_flip = parse_word(n, t, {"error", "flip"}) == "flip";
+     }},
 
     {Topic::picture, both, "--spp", "N", "samples per pixel (default: the scene's)",
      [](Options& o, Name n, Text t) { o.load.samples_per_pixel = parse_integer(n, t, 1, film_max_samples); }},
@@ -101,7 +124,7 @@ const OptionRow rows[] = {
      [](Options& o, Name n, Text t) {
          o.load.instruction_set = parse_word(n, t, {"sse2", "sse4.2", "avx", "avx2", "avx512"});
      }},
-    {Topic::running, both | rerun_only | test_only, "--quiet", "", "print nothing but errors",
+    {Topic::running, both | rerun_only | test_only | compare_only, "--quiet", "", "print nothing but errors",
      [](Options& o, Name, Text) { o.quiet = true; }},
     {Topic::running, both | rerun_only, "--verbose", "", "print facts about the scene",
      [](Options& o, Name, Text) { o.verbose = true; }},
@@ -110,6 +133,26 @@ const OptionRow rows[] = {
      [](Options& o, Name n, Text t) { o.pixel = parse_pixel(n, t); }},
     {Topic::path, replay_only, "--sample", "I", "which of its samples, counted from 0",
      [](Options& o, Name n, Text t) { o.sample = parse_integer(n, t, 0, UINT64_MAX); }},
+
+    {Topic::verdict, compare_only, "--significance", "P",
+     "chance to find a difference where there is none (default 0.01)",
+     [](Options& o, Name n, Text t) { o.compare.how.significance = parse_double(n, t, 1e-9, 0.5); }},
+    {Topic::verdict, compare_only, "--exact", "A|B", "this picture has no noise",
+     [](Options& o, Name n, Text t) {
+         o.compare.how.exact = parse_word(n, t, {"A", "B"}) == "A" ? Side::a : Side::b;
+     }},
+    {Topic::verdict, compare_only, "--no-verdict", "", "ignore the noise: the limits of --max decide",
+     [](Options& o, Name, Text) { o.compare.how.verdict = false; }},
+    {Topic::verdict, compare_only, "--fail-percent", "P", "of the pixels may differ (default 0)",
+     [](Options& o, Name n, Text t) { o.compare.how.fail_percent = parse_double(n, t, 0.0, 100.0); }},
+    {Topic::verdict, compare_only, "--max", "METRIC=X,...",
+     "fail above these: mse, rmse, relmse, mae, max, flip; or below: psnr", add_limits, true},
+    {Topic::verdict, compare_only, "--flip", "MODE", "ldr, hdr or none (default: ldr for .png and the like)",
+     [](Options& o, Name n, Text t) {
+         const std::string mode = parse_word(n, t, {"ldr", "hdr", "none"});
+         o.compare.choose_flip = false;
+         o.compare.how.flip = mode == "ldr" ? FlipMode::ldr : mode == "hdr" ? FlipMode::hdr : FlipMode::none;
+     }},
 
     {Topic::about, render_only, "--version", "", "print the version",
      [](Options& o, Name, Text) { o.version = true; }},

@@ -75,6 +75,7 @@ void check_outputs(const Options& options)
     };
     for (const std::string& file : options.outputs) check(file, "--output");
     if (!options.json.empty() && options.json != "-") check(options.json, "--json");
+    if (!options.compare.difference.empty()) check(options.compare.difference, "--diff");
 }
 
 // CLI11 says "--spp: 1 required TEXT missing" or "quiet was given a disallowed flag override".
@@ -152,7 +153,10 @@ Options parse_options(std::vector<std::string> words)
     if (options.help || options.version) return options;
 
     if (options.subjects.size() < verb.min_subjects)
-        throw UsageError(fmt::format("no {} given; 'renderer --help' shows how", verb.subject));
+        throw UsageError(verb.min_subjects == 1
+                             ? fmt::format("no {} given; 'renderer --help' shows how", verb.subject)
+                             : fmt::format("{} needs two {}s; 'renderer {} --help' shows how", verb.name,
+                                           verb.subject, verb.name));
     if (options.verb == Verb::rerun && options.outputs.empty())
         throw UsageError("rerun needs -o,--output FILE: it does not guess which file to write");
     if (options.verb == Verb::replay)

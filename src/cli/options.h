@@ -3,6 +3,7 @@
 
 // What the command line asks for. A pure function of the words: nothing is printed, read or exited here.
 
+#include "plumb/compare.h"
 #include "plumb/scene_file.h"
 
 #include <stdexcept>
@@ -11,12 +12,20 @@
 
 namespace plumb {
 
-enum class Verb { render, types, info, replay, rerun, test };
+enum class Verb { render, types, info, replay, rerun, test, compare };
 
 // The command line makes no sense: main() prints the message and exits with 2.
 class UsageError : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
+};
+
+// What `renderer compare` is asked for.
+struct CompareRequest {
+    std::string difference; // the picture of it to write; empty: none
+    bool difference_is_flip = false;
+    bool choose_flip = true; // LDR for pictures made for screens, else HDR
+    CompareOptions how;
 };
 
 struct Options {
@@ -37,6 +46,7 @@ struct Options {
     RenderOptions render; // with seed, threads and crop
     Vec2i pixel;          // to replay
     std::uint64_t sample = 0;
+    CompareRequest compare;
 
     // The words that change the scene or the seed, quoted for a shell: " --seed 7 --define 'a=b c'"; and those that
     // change a picture's file.

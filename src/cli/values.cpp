@@ -41,6 +41,15 @@ std::optional<std::vector<int>> integers(std::string_view text, char separator, 
     return values.size() == count ? std::optional(values) : std::nullopt;
 }
 
+template <class T>
+T number_between(std::string_view option, std::string_view text, T min, T max)
+{
+    const auto value = whole_number<T>(text);
+    if (!value || !std::isfinite(*value) || *value < min || *value > max)
+        throw UsageError(fmt::format("{} must be a number from {} to {}, not '{}'", option, min, max, text));
+    return *value;
+}
+
 } // namespace
 
 std::uint64_t parse_integer(std::string_view option, std::string_view text, std::uint64_t min,
@@ -55,10 +64,12 @@ std::uint64_t parse_integer(std::string_view option, std::string_view text, std:
 
 float parse_number(std::string_view option, std::string_view text, float min, float max)
 {
-    const auto value = whole_number<float>(text);
-    if (!value || !std::isfinite(*value) || *value < min || *value > max)
-        throw UsageError(fmt::format("{} must be a number from {} to {}, not '{}'", option, min, max, text));
-    return *value;
+    return number_between<float>(option, text, min, max);
+}
+
+double parse_double(std::string_view option, std::string_view text, double min, double max)
+{
+    return number_between<double>(option, text, min, max);
 }
 
 Vec2i parse_size(std::string_view option, std::string_view text)

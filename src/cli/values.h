@@ -16,6 +16,7 @@ namespace plumb {
 std::uint64_t parse_integer(std::string_view option, std::string_view text, std::uint64_t min,
                             std::uint64_t max);
 float parse_number(std::string_view option, std::string_view text, float min, float max);
+double parse_double(std::string_view option, std::string_view text, double min, double max);
 Vec2i parse_size(std::string_view option, std::string_view text);          // WxH
 Vec2i parse_pixel(std::string_view option, std::string_view text);         // X,Y
 PixelRect parse_rectangle(std::string_view option, std::string_view text); // X,Y,W,H

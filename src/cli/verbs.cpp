@@ -20,6 +20,8 @@ constexpr VerbRow rows[] = {
      "scene file", 1, 1, nullptr},
     {Verb::rerun, "rerun", "IMAGE -o IMAGE [options]", "render a picture again from its header", "image", 1,
      1, rerun_manual},
+    {Verb::compare, "compare", "A B [options]", "are two pictures the same but for noise?", "image", 2, 2,
+     compare_manual},
     {Verb::test, "test", "FILE... [options]", "run a course's statistical tests", "test file", 1, any_number,
      test_manual},
 };

@@ -161,6 +161,18 @@ double student_t_two_sided(double t, double degrees_of_freedom)
                             t * t / sum); // [1], 26.7.1
 }
 
+double student_t_quantile(double p, double degrees_of_freedom)
+{
+    double high = 1.0;
+    while (student_t_two_sided(high, degrees_of_freedom) > p && high < 1e100) high *= 2.0;
+    double low = 0.0;
+    for (int i = 0; i < 80; ++i) {
+        const double middle = 0.5 * (low + high);
+        (student_t_two_sided(middle, degrees_of_freedom) > p ? low : high) = middle;
+    }
+    return 0.5 * (low + high);
+}
+
 double sidak_level(double level, std::size_t tests)
 {
     return -exp_minus_1(log_1p(-level) / static_cast<double>(tests));

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// A comparison for people, and as JSON.
+
+#include "plumb/compare.h"
+
+#include <string>
+
+namespace plumb {
+
+std::string comparison_text(const Comparison& comparison, const CompareOptions& options);
+std::string comparison_json(const Comparison& comparison, const CompareOptions& options, const std::string& a,
+                            const std::string& b);
+
+std::string_view outcome_word(Outcome outcome); // passes, differs, undecided
+
+} // namespace plumb

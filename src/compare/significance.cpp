@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: MIT
+
+// The chance of a false alarm is shared out beforehand (Bonferroni): one half to the test of the whole picture, the
+// rest in equal parts to the sizes of squares, and within a size to its squares and channels. Sizes go from fine to
+// coarse; pixels of a square that was rejected do not count in the larger ones, so that a single wrong pixel does not
+// make the whole picture wrong.
+
+#include "compare/significance.h"
+
+#include "compare/unit_test.h"
+#include "plumb/statistics.h"
+
+namespace plumb {
+
+namespace {
+
+constexpr double share_of_whole = 0.5;
+// Squares below this size take their variance to be at least that of the square of this size around them.
+constexpr int neighbourhood = 16;
+
+enum class State : std::uint8_t { usable, unusable, differs };
+
+// Squares of one size. size 0: one square, the whole.
+struct Squares {
+    int size = 0;
+    std::size_t columns = 1;
+    std::size_t rows = 1;
+
+    Squares(int side, const PixelRect& window) : size(side)
+    {
+        if (side == 0) return;
+        columns = static_cast<std::size_t>((window.width + side - 1) / side);
+        rows = static_cast<std::size_t>((window.height + side - 1) / side);
+    }
+    std::size_t count() const { return columns * rows; }
+    std::size_t index(int x, int y) const
+    {
+        if (size == 0) return 0;
+        return static_cast<std::size_t>(y / size) * columns + static_cast<std::size_t>(x / size);
+    }
+    PixelRect place(std::size_t square, const PixelRect& window) const
+    {
+        if (size == 0) return window;
+        const int x = static_cast<int>(square % columns) * size;
+        const int y = static_cast<int>(square / columns) * size;
+        return {window.x + x, window.y + y, std::min(size, window.width - x),
+                std::min(size, window.height - y)};
+    }
+};
+
+class Tester {
+public:
+    Tester(const Picture& a, const Picture& b, const CompareOptions& options)
+        : a_(a), b_(b), options_(options), states_(a.pixels(), State::usable), covered_(a.pixels(), false)
+    {
+        sampling_ = {a.samples_per_pixel, b.samples_per_pixel, a.is_exact, b.is_exact, options.rounding};
+        for (std::size_t i = 0; i < states_.size(); ++i)
+            if (!a.is_finite(i) || !b.is_finite(i) || !a.variance_is_known(i) || !b.variance_is_known(i))
+                states_[i] = State::unusable;
+        for (std::size_t channel = 0; channel < a.channels.size(); ++channel)
+            neighbours_.push_back(sums(Squares(neighbourhood, a.window), channel));
+    }
+
+    Significance run()
+    {
+        Significance result;
+        std::vector<int> sizes;
+        for (int size = 1; size < std::max(a_.window.width, a_.window.height); size *= 2)
+            sizes.push_back(size);
+        const double share =
+            (1.0 - share_of_whole) / static_cast<double>(std::max<std::size_t>(sizes.size(), 1));
+        for (const int size : sizes) result.scales.push_back(test_scale(size, share));
+        const double whole_share = sizes.empty() ? 1.0 : share_of_whole;
+        const bool all_are_left = std::find(states_.begin(), states_.end(), State::differs) == states_.end();
+        find_detectable_bias(result, whole_share);
+        const std::vector<State> before = states_;
+        for (State& state : states_)
+            if (state == State::differs) state = State::usable;
+        const std::optional<UnitTest> everything =
+            all_are_left ? std::nullopt : largest_of_whole(whole_share);
+        states_ = before;
+        result.scales.push_back(test_scale(0, whole_share));
+        if (everything) result.scales.back().largest = everything;
+
+        result.pixels = states_.size();
+        for (const ScaleTest& scale : result.scales)
+            if (scale.largest) result.p = std::min(result.p, scale.largest->p);
+        for (std::size_t i = 0; i < states_.size(); ++i) {
+            if (!a_.is_finite(i) && !b_.is_finite(i)) continue;
+            if (states_[i] == State::differs || a_.is_finite(i) != b_.is_finite(i))
+                ++result.differing;
+            else if (!covered_[i])
+                ++result.untested;
+        }
+        return result;
+    }
+
+private:
+    std::vector<UnitSums> sums(const Squares& squares, std::size_t channel) const
+    {
+        std::vector<UnitSums> result(squares.count());
+        const auto contributing = [](const Picture& picture, std::size_t pixel) {
+            return static_cast<double>(picture.contributing.empty() ? infinity : picture.contributing[pixel]);
+        };
+        std::size_t i = 0;
+        for (int y = 0; y < a_.window.height; ++y) {
+            for (int x = 0; x < a_.window.width; ++x, ++i) {
+                if (states_[i] != State::usable) continue;
+                UnitSums& unit = result[squares.index(x, y)];
+                unit.a.add(static_cast<double>(a_.value(i, channel)), a_.variance(i, channel),
+                           a_.samples_per_pixel, contributing(a_, i));
+                unit.b.add(static_cast<double>(b_.value(i, channel)), b_.variance(i, channel),
+                           b_.samples_per_pixel, contributing(b_, i));
+                ++unit.pixels;
+            }
+        }
+        return result;
+    }
+
+    Deviation deviation_of(const UnitSums& unit, const PixelRect& place, int size, std::size_t channel) const
+    {
+        if (size == 0 || size >= neighbourhood) return deviation(unit, sampling_, {});
+        const Squares squares(neighbourhood, a_.window);
+        const UnitSums& around =
+            neighbours_[channel][squares.index(place.x - a_.window.x, place.y - a_.window.y)];
+        const double pixels = static_cast<double>(std::max<std::uint64_t>(around.pixels, 1));
+        return deviation(unit, sampling_, LeastNoise{around.a.variance / pixels, around.b.variance / pixels});
+    }
+
+    // tests: by how many the chance of a false alarm is divided.
+    UnitTest describe(const UnitSums& unit, const PixelRect& place, std::size_t channel,
+                      const Deviation& found, double tests) const
+    {
+        UnitTest result;
+        result.place = place;
+        result.channel = static_cast<int>(channel);
+        const double pixels = static_cast<double>(unit.pixels);
+        result.mean_a = unit.a.mean / pixels;
+        result.mean_b = unit.b.mean / pixels;
+        result.t = found.t;
+        result.freedom = found.freedom;
+        result.p = std::min(1.0, tests * student_t_two_sided(found.t, found.freedom));
+        return result;
+    }
+
+    static bool is_larger(const UnitTest& test, const std::optional<UnitTest>& other)
+    {
+        if (!other || test.p < other->p) return true;
+        return test.p == other->p && std::abs(test.t) > std::abs(other->t);
+    }
+
+    ScaleTest test_scale(int size, double share)
+    {
+        struct Unit {
+            bool is_tested = false;      // in one channel at least
+            bool is_unsupported = false; // in one channel
+            bool is_rejected = false;
+        };
+        const Squares squares(size, a_.window);
+        ScaleTest result;
+        result.size = size;
+        result.units = squares.count();
+        const double tests = static_cast<double>(squares.count() * a_.channels.size()) / share;
+        std::vector<Unit> units(squares.count());
+        double interesting = 0.0; // a smaller |t| can neither be rejected nor be the largest
+        for (std::size_t channel = 0; channel < a_.channels.size(); ++channel) {
+            const std::vector<UnitSums> all = sums(squares, channel);
+            for (std::size_t i = 0; i < all.size(); ++i) {
+                if (all[i].pixels == 0 || is_black(all[i])) continue;
+                if (!is_supported(all[i], sampling_)) {
+                    units[i].is_unsupported = true;
+                    continue;
+                }
+                units[i].is_tested = true;
+                const PixelRect place = squares.place(i, a_.window);
+                const Deviation found = deviation_of(all[i], place, size, channel);
+                // Student's tails are above the normal ones.
+                if (result.largest && std::abs(found.t) < interesting) continue;
+                const UnitTest test = describe(all[i], place, channel, found, tests);
+                if (test.p <= options_.significance) units[i].is_rejected = true;
+                if (!is_larger(test, result.largest)) continue;
+                result.largest = test;
+                const double p = std::max(test.p, options_.significance) / tests;
+                interesting = student_t_quantile(p, static_cast<double>(infinity));
+            }
+        }
+        for (const Unit& unit : units) {
+            result.tested += unit.is_tested ? 1 : 0;
+            result.rejected += unit.is_rejected ? 1 : 0;
+        }
+        std::size_t i = 0;
+        for (int y = 0; y < a_.window.height; ++y) {
+            for (int x = 0; x < a_.window.width; ++x, ++i) {
+                if (states_[i] != State::usable) continue;
+                const Unit& unit = units[squares.index(x, y)];
+                if (!covered_[i] && unit.is_tested && !unit.is_unsupported) {
+                    covered_[i] = true;
+                    ++result.smallest_pixels;
+                }
+                if (unit.is_rejected) states_[i] = State::differs;
+            }
+        }
+        return result;
+    }
+
+    // Of all pixels that are usable now.
+    std::optional<UnitTest> largest_of_whole(double share) const
+    {
+        std::optional<UnitTest> result;
+        const Squares whole(0, a_.window);
+        for (std::size_t channel = 0; channel < a_.channels.size(); ++channel) {
+            const UnitSums unit = sums(whole, channel).front();
+            if (is_black(unit) || !is_supported(unit, sampling_)) continue;
+            const UnitTest test =
+                describe(unit, a_.window, channel, deviation_of(unit, a_.window, 0, channel),
+                         static_cast<double>(a_.channels.size()) / share);
+            if (is_larger(test, result)) result = test;
+        }
+        return result;
+    }
+
+    void find_detectable_bias(Significance& result, double share) const
+    {
+        constexpr double z = 1.2815515655446004; // the normal distribution has 90 % below it
+        const double level = options_.significance * share / static_cast<double>(a_.channels.size());
+        const Squares whole(0, a_.window);
+        for (std::size_t channel = 0; channel < a_.channels.size(); ++channel) {
+            const UnitSums unit = sums(whole, channel).front();
+            if (is_black(unit) || !is_supported(unit, sampling_)) continue;
+            const Deviation found = deviation_of(unit, a_.window, 0, channel);
+            const double bias =
+                (student_t_quantile(level, found.freedom) + z) * found.standard_error + options_.rounding;
+            result.detectable_bias = std::min(bias, result.detectable_bias.value_or(bias));
+        }
+    }
+
+    const Picture& a_;
+    const Picture& b_;
+    const CompareOptions& options_;
+    Sampling sampling_;
+    std::vector<State> states_;
+    std::vector<bool> covered_;                     // in a square that was tested
+    std::vector<std::vector<UnitSums>> neighbours_; // for each channel
+};
+
+} // namespace
+
+Significance test_significance(const Picture& a, const Picture& b, const CompareOptions& options)
+{
+    return Tester(a, b, options).run();
+}
+
+} // namespace plumb
