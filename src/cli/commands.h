@@ -12,7 +12,8 @@ void types_command(const Options& options);
 void info_command(const Options& options);
 void replay_command(const Options& options);
 void rerun_command(const Options& options);
-int test_command(const Options& options); // returns the exit code: 3 if a test failed
+int test_command(const Options& options);  // returns the exit code: 3 if a test failed
+int agree_command(const Options& options); // the same
 int compare_command(
     const Options& options); // returns the exit code: 3 if they differ, 4 if that is not known
 

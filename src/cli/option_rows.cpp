@@ -22,6 +22,7 @@ constexpr unsigned rendering = render_only | rerun_only;
 constexpr unsigned both = render_only | replay_only;
 constexpr unsigned test_only = verb_bit(Verb::test);
 constexpr unsigned compare_only = verb_bit(Verb::compare);
+constexpr unsigned agree_only = verb_bit(Verb::agree);
 constexpr unsigned every_verb = ~0u;
 
 using Name = std::string_view;
@@ -68,7 +69,7 @@ const OptionRow rows[] = {
      "leave the error bars out of .exr files: variance.R, variance.G,\n"
      "variance.B and contributing",
      [](Options& o, Name, Text) { o.variance = false; }},
-    {Topic::output, rendering | test_only | compare_only, "--json", "FILE",
+    {Topic::output, rendering | test_only | compare_only | agree_only, "--json", "FILE",
      "write a report of the run; - is standard output", [](Options& o, Name, Text t) { o.json = t; }},
     {Topic::output, compare_only, "--diff", "FILE", "write the difference in false colours, with a scale",
      [](Options& o, Name, Text t) { o.compare.difference = t; }},
@@ -78,11 +79,12 @@ const OptionRow rows[] = {
          o.compare.difference_is_flip = parse_word(n, t, {"error", "flip"}) == "flip";
      }},
 
-    {Topic::picture, both, "--spp", "N", "samples per pixel (default: the scene's)",
+    {Topic::picture, both | agree_only, "--spp", "N", "samples per pixel (default: the scene's)",
      [](Options& o, Name n, Text t) { o.load.samples_per_pixel = parse_integer(n, t, 1, film_max_samples); }},
-    {Topic::picture, both | test_only, "--seed", "N", "of the random numbers, 64 bits (default 0)",
+    {Topic::picture, both | test_only | agree_only, "--seed", "N",
+     "of the random numbers, 64 bits (default 0)",
      [](Options& o, Name n, Text t) { o.render.seed = parse_integer(n, t, 0, UINT64_MAX); }},
-    {Topic::picture, both, "--size", "WxH", "resolution (default: the scene's)",
+    {Topic::picture, both | agree_only, "--size", "WxH", "resolution (default: the scene's)",
      [](Options& o, Name n, Text t) { o.load.resolution = parse_size(n, t); }},
     {Topic::picture, render_only, "--crop", "X,Y,W,H", "render this part only; same bits as in the whole",
      [](Options& o, Name n, Text t) { o.render.crop = parse_rectangle(n, t); }},
@@ -90,26 +92,35 @@ const OptionRow rows[] = {
      [](Options& o, Name, Text t) { o.load.integrator = t; }},
     {Topic::picture, both, "--sampler", "TYPE", "instead of the scene's",
      [](Options& o, Name, Text t) { o.load.sampler = t; }},
+    {Topic::picture, agree_only, "--integrators", "TYPE,...",
+     "which estimators (default path,path_nee,path_mis)",
+     [](Options& o, Name n, Text t) { o.agree.integrators = parse_list(n, t); }},
+    {Topic::picture, agree_only, "--samplers", "TYPE,...",
+     "each estimator with each of them (default: the scene's)",
+     [](Options& o, Name n, Text t) { o.agree.samplers = parse_list(n, t); }},
+    {Topic::picture, agree_only, "--time", "T", "about as long in all: 90, 90s, 10m or 2h; instead of --spp",
+     [](Options& o, Name n, Text t) { o.agree.seconds = parse_duration(n, t); }},
 
-    {Topic::scene, both | test_only, "-D,--define", "NAME=VALUE",
+    {Topic::scene, both | test_only | agree_only, "-D,--define", "NAME=VALUE",
      "value of $NAME in the scene file; may be repeated", define, true},
-    {Topic::scene, both | test_only, "--dialect", "NAME",
+    {Topic::scene, both | test_only | agree_only, "--dialect", "NAME",
      "auto, plumb, epfl, eth, zaragoza or mcgill (default auto)",
      [](Options& o, Name n, Text t) {
          o.load.dialect = dialect_from_string(parse_word(n, t, dialect_words()));
      }},
-    {Topic::scene, both | test_only, "--emitters", "WHAT", "scatter or absorb the light that meets them",
+    {Topic::scene, both | test_only | agree_only, "--emitters", "WHAT",
+     "scatter or absorb the light that meets them",
      [](Options& o, Name n, Text t) {
          o.load.emitters_absorb = parse_word(n, t, {"scatter", "absorb"}) == "absorb";
      }},
-    {Topic::scene, both, "--mirror", "on|off", "flop the picture left to right",
+    {Topic::scene, both | agree_only, "--mirror", "on|off", "flop the picture left to right",
      [](Options& o, Name n, Text t) {
          o.load.mirrored_view = parse_word(n, t, {"on", "off"}) == "on";
      }},
-    {Topic::scene, both | test_only, "--envmap-scale", "X", "multiply environment images by X",
+    {Topic::scene, both | test_only | agree_only, "--envmap-scale", "X", "multiply environment images by X",
      [](Options& o, Name n, Text t) { o.load.environment_scale = parse_number(n, t, 0.f, 1e30f); }},
-    {Topic::scene, both | test_only, "--lenient", "", "unknown parameters are warnings, not errors",
-     [](Options& o, Name, Text) { o.load.lenient = true; }},
+    {Topic::scene, both | test_only | agree_only, "--lenient", "",
+     "unknown parameters are warnings, not errors", [](Options& o, Name, Text) { o.load.lenient = true; }},
 
     {Topic::scene, rerun_only, "--scene", "FILE", "where the scene file lies now",
      [](Options& o, Name n, Text t) {
@@ -117,16 +128,17 @@ const OptionRow rows[] = {
          o.scene = t;
      }},
 
-    {Topic::running, rendering | test_only, "-t,--threads", "N", "how many (default: all there are)",
+    {Topic::running, rendering | test_only | agree_only, "-t,--threads", "N",
+     "how many (default: all there are)",
      [](Options& o, Name n, Text t) { o.render.threads = static_cast<int>(parse_integer(n, t, 1, 1024)); }},
-    {Topic::running, both | test_only, "--isa", "NAME",
+    {Topic::running, both | test_only | agree_only, "--isa", "NAME",
      "of Embree: sse2, sse4.2, avx, avx2 or avx512 (default avx2)",
      [](Options& o, Name n, Text t) {
          o.load.instruction_set = parse_word(n, t, {"sse2", "sse4.2", "avx", "avx2", "avx512"});
      }},
-    {Topic::running, both | rerun_only | test_only | compare_only, "--quiet", "", "print nothing but errors",
-     [](Options& o, Name, Text) { o.quiet = true; }},
-    {Topic::running, both | rerun_only, "--verbose", "", "print facts about the scene",
+    {Topic::running, both | rerun_only | test_only | compare_only | agree_only, "--quiet", "",
+     "print nothing but errors", [](Options& o, Name, Text) { o.quiet = true; }},
+    {Topic::running, both | rerun_only | agree_only, "--verbose", "", "print facts about the scene",
      [](Options& o, Name, Text) { o.verbose = true; }},
 
     {Topic::path, replay_only, "--pixel", "X,Y", "the pixel, counted from the upper left corner",
@@ -134,7 +146,7 @@ const OptionRow rows[] = {
     {Topic::path, replay_only, "--sample", "I", "which of its samples, counted from 0",
      [](Options& o, Name n, Text t) { o.sample = parse_integer(n, t, 0, UINT64_MAX); }},
 
-    {Topic::verdict, compare_only, "--significance", "P",
+    {Topic::verdict, compare_only | agree_only, "--significance", "P",
      "chance to find a difference where there is none (default 0.01)",
      [](Options& o, Name n, Text t) { o.compare.how.significance = parse_double(n, t, 1e-9, 0.5); }},
     {Topic::verdict, compare_only, "--exact", "A|B", "this picture has no noise",

@@ -12,7 +12,7 @@
 
 namespace plumb {
 
-enum class Verb { render, types, info, replay, rerun, test, compare };
+enum class Verb { render, types, info, replay, rerun, test, compare, agree };
 
 // The command line makes no sense: main() prints the message and exits with 2.
 class UsageError : public std::runtime_error {
@@ -26,6 +26,13 @@ struct CompareRequest {
     bool difference_is_flip = false;
     bool choose_flip = true; // LDR for pictures made for screens, else HDR
     CompareOptions how;
+};
+
+// What `renderer agree` renders a scene with.
+struct AgreeRequest {
+    std::vector<std::string> integrators = {"path", "path_nee", "path_mis"};
+    std::vector<std::string> samplers; // none: the scene's
+    double seconds = 0.0; // for all pictures together; 0: as many samples as the scene or --spp says
 };
 
 struct Options {
@@ -47,6 +54,7 @@ struct Options {
     Vec2i pixel;          // to replay
     std::uint64_t sample = 0;
     CompareRequest compare;
+    AgreeRequest agree;
 
     // The words that change the scene or the seed, quoted for a shell: " --seed 7 --define 'a=b c'"; and those that
     // change a picture's file.

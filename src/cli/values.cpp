@@ -72,6 +72,34 @@ double parse_double(std::string_view option, std::string_view text, double min, 
     return number_between<double>(option, text, min, max);
 }
 
+double parse_duration(std::string_view option, std::string_view text)
+{
+    double unit = 1.0;
+    std::string_view number = text;
+    for (const auto& [letter, seconds] :
+         {std::pair('s', 1.0), std::pair('m', 60.0), std::pair('h', 3600.0)}) {
+        if (!text.ends_with(letter)) continue;
+        unit = seconds;
+        number.remove_suffix(1);
+    }
+    const auto value = whole_number<double>(number);
+    if (!value || !(*value > 0.0) || !(*value * unit <= 1e9))
+        throw UsageError(fmt::format("{} must be a time like 90, 90s, 10m or 2h, not '{}'", option, text));
+    return *value * unit;
+}
+
+std::vector<std::string> parse_list(std::string_view option, std::string_view text)
+{
+    std::vector<std::string> words;
+    for (std::size_t start = 0; start <= text.size();) {
+        const std::size_t end = std::min(text.find(',', start), text.size());
+        words.emplace_back(text.substr(start, end - start));
+        if (words.back().empty()) throw UsageError(fmt::format("{} has an empty word in '{}'", option, text));
+        start = end + 1;
+    }
+    return words;
+}
+
 Vec2i parse_size(std::string_view option, std::string_view text)
 {
     const auto values = integers(text, 'x', 2);

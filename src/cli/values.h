@@ -17,9 +17,11 @@ std::uint64_t parse_integer(std::string_view option, std::string_view text, std:
                             std::uint64_t max);
 float parse_number(std::string_view option, std::string_view text, float min, float max);
 double parse_double(std::string_view option, std::string_view text, double min, double max);
-Vec2i parse_size(std::string_view option, std::string_view text);          // WxH
-Vec2i parse_pixel(std::string_view option, std::string_view text);         // X,Y
-PixelRect parse_rectangle(std::string_view option, std::string_view text); // X,Y,W,H
+double parse_duration(std::string_view option, std::string_view text); // 90, 90s, 10m or 2h, as seconds
+std::vector<std::string> parse_list(std::string_view option, std::string_view text); // a,b,c
+Vec2i parse_size(std::string_view option, std::string_view text);                    // WxH
+Vec2i parse_pixel(std::string_view option, std::string_view text);                   // X,Y
+PixelRect parse_rectangle(std::string_view option, std::string_view text);           // X,Y,W,H
 // One of the words, or an error that lists them.
 std::string parse_word(std::string_view option, std::string_view text,
                        const std::vector<std::string_view>& words);

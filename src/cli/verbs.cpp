@@ -22,6 +22,8 @@ constexpr VerbRow rows[] = {
      1, rerun_manual},
     {Verb::compare, "compare", "A B [options]", "are two pictures the same but for noise?", "image", 2, 2,
      compare_manual},
+    {Verb::agree, "agree", "SCENE [options]", "do the estimators agree on a scene?", "scene file", 1, 1,
+     agree_manual},
     {Verb::test, "test", "FILE... [options]", "run a course's statistical tests", "test file", 1, any_number,
      test_manual},
 };

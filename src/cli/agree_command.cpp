@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+#include "cli/commands.h"
+#include "cli/comparison_text.h"
+#include "cli/console.h"
+#include "cli/json.h"
+#include "cli/manuals.h"
+#include "cli/progress.h"
+#include "cli/text.h"
+#include "cli/text_file.h"
+
+#include "plumb/compare.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace plumb {
+
+namespace {
+
+constexpr int differ = 3;
+constexpr int undecided = 4;
+
+// A picture of the scene by one estimator.
+struct Estimate {
+    std::string name;
+    std::uint64_t samples_per_pixel;
+    Image image;
+};
+
+struct Pair {
+    const Estimate& a;
+    const Estimate& b;
+    Comparison comparison;
+};
+
+// As many samples as take that long, by the speed of a few.
+std::uint64_t samples_in(double seconds, const RenderJob& job, RenderOptions options)
+{
+    constexpr std::uint64_t few = 4;
+    options.samples_per_pixel = few;
+    const double per_sample = std::max(render(job, options).seconds, 1e-3) / static_cast<double>(few);
+    return static_cast<std::uint64_t>(
+        std::clamp(seconds / per_sample, static_cast<double>(few), static_cast<double>(film_max_samples)));
+}
+
+Estimate estimate(const Options& options, const std::string& integrator, const std::string& sampler,
+                  std::uint64_t number, double seconds)
+{
+    Options one = options;
+    one.load.integrator = integrator;
+    if (!sampler.empty()) one.load.sampler = sampler;
+    one.quiet = options.quiet || number > 0; // what loading says, once
+    const LoadedScene scene = load_and_log(one);
+
+    RenderOptions how = options.render;
+    how.seed += number; // independent pictures: independent seeds
+    how.samples_per_pixel =
+        seconds > 0.0 ? samples_in(seconds, scene.job, how) : scene.job.sampler->samples_per_pixel();
+    ProgressDisplay display(options.quiet);
+    const RenderResult result =
+        render(scene.job, how, [&](const Progress& progress) { display.show(progress); });
+
+    Estimate made{sampler.empty() ? integrator : integrator + " with " + sampler, how.samples_per_pixel,
+                  result.film.develop(Channels::color_and_evidence)};
+    made.image.metadata.emplace_back("plumb:samplesPerPixel", static_cast<int>(how.samples_per_pixel));
+    return made;
+}
+
+std::string pair_text(const Pair& pair)
+{
+    const Significance& found = pair.comparison.significance;
+    std::string text = fmt::format(
+        "  {} and {}: {}, p {:.3g}", pair.a.name, pair.b.name,
+        pair.comparison.outcome == Outcome::passes ? "agree" : outcome_word(pair.comparison.outcome),
+        found.p);
+    if (pair.comparison.outcome == Outcome::undecided && !found.reason.empty())
+        text += fmt::format(" ({})", found.reason);
+    if (found.detectable_bias)
+        text += fmt::format("; a bias of {:.3g} % would have been found with 90 % probability",
+                            *found.detectable_bias * 100.0);
+    return text + "\n";
+}
+
+Outcome outcome_of(const std::vector<Pair>& pairs)
+{
+    Outcome worst = Outcome::passes;
+    for (const Pair& pair : pairs) {
+        if (pair.comparison.outcome == Outcome::differs) return Outcome::differs;
+        if (pair.comparison.outcome == Outcome::undecided) worst = Outcome::undecided;
+    }
+    return worst;
+}
+
+const char* verdict_of(Outcome outcome)
+{
+    switch (outcome) {
+    case Outcome::passes: return "agree";
+    case Outcome::differs: return "differ";
+    case Outcome::undecided: return "undecided";
+    }
+    return "";
+}
+
+std::string agreement_json(const Options& options, const std::vector<Estimate>& estimates,
+                           const std::vector<Pair>& pairs)
+{
+    JsonWriter json;
+    json.begin_object();
+    json.text("scene", options.subject);
+    json.text("verdict", verdict_of(outcome_of(pairs)));
+    json.number("significance", options.compare.how.significance);
+    json.begin_array("estimates");
+    for (const Estimate& estimate : estimates) {
+        json.begin_object();
+        json.text("name", estimate.name);
+        json.integer("spp", estimate.samples_per_pixel);
+        json.end_object();
+    }
+    json.end_array();
+    json.begin_array("pairs");
+    for (const Pair& pair : pairs) {
+        json.begin_object();
+        json.text("a", pair.a.name);
+        json.text("b", pair.b.name);
+        json.text("outcome", outcome_word(pair.comparison.outcome));
+        json.number("p", pair.comparison.significance.p);
+        if (const auto& bias = pair.comparison.significance.detectable_bias)
+            json.number("detectable_bias", *bias);
+        else
+            json.null("detectable_bias");
+        json.end_object();
+    }
+    json.end_array();
+    json.end_object();
+    return std::move(json).finish();
+}
+
+void check_request(const Options& options)
+{
+    const AgreeRequest& request = options.agree;
+    if (request.integrators.size() * std::max<std::size_t>(request.samplers.size(), 1) < 2)
+        throw UsageError("agree needs two estimators or more; name them with --integrators");
+    if (request.seconds > 0.0 && options.load.samples_per_pixel)
+        throw UsageError("--time and --spp exclude each other");
+}
+
+} // namespace
+
+std::string_view agree_manual()
+{
+    return "Renders the scene with each estimator, each with random numbers of its own and without a depth "
+           "cut, and\n"
+           "compares all pairs as `renderer compare` does; the significance is that of all pairs together. "
+           "An error that\n"
+           "all the estimators share - in a BSDF, the camera, a mesh - makes no difference between them and "
+           "is not found.\n"
+           "Exit code: 0 they agree, 1 the scene is wrong, 2 wrong usage, 3 they differ, 4 undecided.\n";
+}
+
+int agree_command(const Options& options)
+{
+    check_request(options);
+    if (!options.json.empty() && options.json != "-") check_text_path(options.json);
+    const AgreeRequest& request = options.agree;
+    const std::vector<std::string> samplers =
+        request.samplers.empty() ? std::vector<std::string>{""} : request.samplers;
+    const double seconds_each =
+        request.seconds / static_cast<double>(request.integrators.size() * samplers.size());
+
+    std::vector<Estimate> estimates;
+    for (const std::string& integrator : request.integrators)
+        for (const std::string& sampler : samplers)
+            estimates.push_back(estimate(options, integrator, sampler, estimates.size(), seconds_each));
+
+    CompareOptions how = options.compare.how;
+    how.flip = FlipMode::none;
+    how.significance /= static_cast<double>(estimates.size() * (estimates.size() - 1) / 2); // Bonferroni
+    std::vector<Pair> pairs;
+    for (std::size_t i = 0; i < estimates.size(); ++i)
+        for (std::size_t j = i + 1; j < estimates.size(); ++j)
+            pairs.push_back(
+                {estimates[i], estimates[j], compare(estimates[i].image, estimates[j].image, how)});
+
+    const Outcome outcome = outcome_of(pairs);
+    const std::string json = options.json.empty() ? "" : agreement_json(options, estimates, pairs);
+    if (!options.quiet && options.json != "-") {
+        print_output(options.subject + "\n");
+        for (const Estimate& estimate : estimates)
+            print_output(
+                fmt::format("  {}: {} samples per pixel\n", estimate.name, estimate.samples_per_pixel));
+        for (const Pair& pair : pairs) print_output(pair_text(pair));
+        print_output(
+            fmt::format("{}; what is wrong in all of them alike is beyond this test\n", verdict_of(outcome)));
+    }
+    if (options.json == "-")
+        print_output(json);
+    else if (!options.json.empty())
+        write_text_file(options.json, json);
+    return outcome == Outcome::passes ? 0 : outcome == Outcome::differs ? differ : undecided;
+}
+
+} // namespace plumb

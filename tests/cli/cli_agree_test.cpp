@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+
+// renderer agree.
+
+#include "cli/small_scene.h"
+#include "support/catch.h"
+
+using namespace plumb;
+
+namespace {
+
+// A ball on a floor below a large lamp: no estimator finds that hard.
+const char* const easy_scene = R"(<scene dialect="plumb">
+  <sampler type="independent"><integer name="sampleCount" value="64"/></sampler>
+  <camera type="perspective">
+    <transform name="toWorld"><lookat origin="0,0,-0.9" target="0,0,1" up="0,1,0"/></transform>
+    <float name="fov" value="60"/><integer name="width" value="24"/><integer name="height" value="18"/>
+  </camera>
+  <shape type="rectangle"><vector name="normal" value="0,1,0"/><point name="center" value="0,-0.5,0"/>
+    <float name="width" value="9"/><float name="height" value="9"/>
+    <bsdf type="diffuse"><color name="albedo" value="0.7,0.6,0.5"/></bsdf></shape>
+  <shape type="sphere"><point name="center" value="0,0,1"/><float name="radius" value="0.4"/>
+    <bsdf type="diffuse"><color name="albedo" value="0.5,0.8,0.9"/></bsdf></shape>
+  <shape type="sphere"><point name="center" value="0,3,0"/><float name="radius" value="2"/>
+    <emitter type="area"><color name="radiance" value="1,1,1"/></emitter></shape>
+</scene>
+)";
+
+} // namespace
+
+TEST_CASE("estimators of the same light agree", "[cli][agree]")
+{
+    const SceneFolder folder;
+    folder.write("easy.xml", easy_scene);
+    const RunResult run = folder.run({"agree", "easy.xml", "--json", "a.json"});
+    INFO(run.out << run.err);
+    CHECK(run.exit_code == 0);
+    CHECK_THAT(run.out, ContainsSubstring("easy.xml\n  path: 64 samples per pixel\n  path_nee: 64"));
+    for (const char* pair :
+         {"  path and path_nee: agree, p ", "  path and path_mis: agree, p ",
+          "  path_nee and path_mis: agree, p ", " % would have been found with 90 % probability\n",
+          "\nagree; what is wrong in all of them alike is beyond this test\n"})
+        CHECK_THAT(run.out, ContainsSubstring(pair));
+    const std::string json = read_bytes(folder / "a.json");
+    CHECK_THAT(json, ContainsSubstring("\"verdict\": \"agree\""));
+    CHECK_THAT(json, ContainsSubstring("\"detectable_bias\": 0.0"));
+    // Another seed is another set of pictures, and the verdict stands.
+    CHECK(folder.run({"agree", "easy.xml", "--seed", "77", "--quiet"}).exit_code == 0);
+}
+
+TEST_CASE("an estimator that leaves light out does not agree", "[cli][agree]")
+{
+    const SceneFolder folder;
+    folder.write("easy.xml", easy_scene);
+    const RunResult run =
+        folder.run({"agree", "easy.xml", "--integrators", "path_mis,path_nee,direct_mis", "--json", "-"});
+    CHECK(run.exit_code == 3);
+    CHECK_THAT(run.out, ContainsSubstring("\"verdict\": \"differ\""));
+    CHECK_THAT(run.out, ContainsSubstring("\"b\": \"path_nee\",\n      \"outcome\": \"passes\""));
+    CHECK_THAT(run.out, ContainsSubstring("\"b\": \"direct_mis\",\n      \"outcome\": \"differs\""));
+}
+
+TEST_CASE("too few samples decide nothing", "[cli][agree]")
+{
+    const SceneFolder folder;
+    const RunResult run = folder.run({"agree", "scene.xml", "--spp", "2", "--size", "12x9"});
+    CHECK(run.exit_code == 4);
+    CHECK_THAT(run.out, ContainsSubstring("undecided; what is wrong in all of them alike"));
+}
+
+TEST_CASE("agree takes a time instead of a number of samples", "[cli][agree]")
+{
+    const SceneFolder folder;
+    folder.write("easy.xml", easy_scene);
+    CHECK(folder.run({"agree", "easy.xml", "--time", "1s", "--quiet"}).exit_code == 0);
+    CHECK(folder.run({"agree", "easy.xml", "--time", "1s", "--spp", "4"}).exit_code == 2);
+    CHECK(folder.run({"agree", "easy.xml", "--time", "soon"}).err ==
+          "error: --time must be a time like 90, 90s, 10m or 2h, not 'soon'\n");
+    CHECK(folder.run({"agree", "easy.xml", "--integrators", "path"}).err ==
+          "error: agree needs two estimators or more; name them with --integrators\n");
+    CHECK(folder.run({"agree", "easy.xml", "--integrators", "path,,path_nee"}).exit_code == 2);
+    CHECK(folder.run({"agree", "easy.xml", "--integrators", "path,paht"}).exit_code != 0);
+}
