@@ -135,6 +135,20 @@ TEST_CASE("verbs come first and take their own options", "[unit][options]")
     CHECK(usage_error("s.xml --pixel 1,1") == "option '--pixel' does not go with rendering");
     CHECK(usage_error("info a.exr --spp 4") == "option '--spp' does not go with info");
 
+    const Options test = parse("test a.xml --seed 3 b.xml -t 2 --dialect epfl --json r.json --quiet c.xml");
+    CHECK(test.verb == Verb::test);
+    CHECK(test.subjects == std::vector<std::string>{"a.xml", "b.xml", "c.xml"});
+    CHECK(test.render.seed == 3);
+    CHECK(test.render.threads == 2);
+    CHECK(test.load.dialect == DialectName::epfl);
+    CHECK(test.json == "r.json");
+    CHECK(test.quiet);
+    CHECK(parse("test ./test").subjects == std::vector<std::string>{"./test"});
+    CHECK(parse("test -- -a.xml b.xml").subjects == std::vector<std::string>{"-a.xml", "b.xml"});
+    CHECK(usage_error("test") == "no test file given; 'renderer --help' shows how");
+    CHECK(usage_error("test a.xml --spp 4") == "option '--spp' does not go with test");
+    CHECK(usage_error("a.xml test") == "the verb 'test' must be the first word");
+
     CHECK(closest_verb("tpyes") == "types");
     CHECK(closest_verb("cbox.xml").empty());
 }
@@ -157,7 +171,7 @@ TEST_CASE("help and version need no scene", "[unit][options]")
 
 TEST_CASE("--help names every option of its verb", "[unit][options]")
 {
-    for (const Verb verb : {Verb::render, Verb::types, Verb::info, Verb::replay}) {
+    for (const Verb verb : {Verb::render, Verb::types, Verb::info, Verb::replay, Verb::test}) {
         const std::string help = help_text(verb);
         for (const OptionRow& row : option_rows()) {
             INFO(row.names);

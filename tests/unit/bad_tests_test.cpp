@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+// Every file in tests/scenes/bad_tests, a test file of a course, beside the exact text of what is wrong with it.
+
+#include "plumb/test_file.h"
+#include "support/catch.h"
+#include "support/temp_folder.h"
+
+using namespace plumb;
+
+namespace {
+
+const std::filesystem::path folder =
+    std::filesystem::path(PLUMB_SOURCE_DIR) / "tests" / "scenes" / "bad_tests";
+
+std::vector<std::filesystem::path> bad_tests()
+{
+    std::vector<std::filesystem::path> files;
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+        if (entry.path().extension() == ".xml") files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+// What loading complains of, with paths relative to the folder.
+std::string complaints(const std::filesystem::path& path)
+{
+    std::string text;
+    try {
+        load_test(path);
+        return "no error\n";
+    } catch (const SceneError& error) {
+        text = error.what();
+    } catch (const Error& error) {
+        text = std::string("not a scene error: ") + error.what();
+    }
+    const std::string prefix = folder.string() + "/";
+    for (std::size_t i = text.find(prefix); i != text.npos; i = text.find(prefix, i))
+        text.erase(i, prefix.size());
+    return text + "\n";
+}
+
+TestFile load_text(const std::string& text)
+{
+    const TempFolder files;
+    return load_test(files.write("test.xml", text));
+}
+
+const std::string scene_start = "<scene><integrator type='normals'/><camera type='perspective'/>";
+
+} // namespace
+
+TEST_CASE("bad tests", "[unit][test_file]")
+{
+    const std::filesystem::path path = GENERATE(from_range(bad_tests()));
+    CAPTURE(path.filename());
+    CHECK(complaints(path) == read_bytes(std::filesystem::path(path).replace_extension(".expected")));
+}
+
+TEST_CASE("there are bad tests", "[unit][test_file]")
+{
+    CHECK(bad_tests().size() >= 24);
+}
+
+TEST_CASE("a ttest has the courses' defaults", "[unit][test_file]")
+{
+    const TestFile file =
+        load_text("<test type='ttest'><string name='angles' value='0, 30 60'/>"
+                  "<string name='references' value='.5,\n\t+.5 5e-1'/><bsdf type='diffuse'/></test>");
+    CHECK(file.type == TestType::ttest);
+    CHECK(file.significance_level == Approx(0.01));
+    CHECK(file.sample_count == 100'000);
+    CHECK(file.angles == std::vector<double>{0, 30, 60});
+    CHECK(file.references == std::vector<double>{0.5, 0.5, 0.5});
+    CHECK(file.test_count() == 3);
+    CHECK(file.bsdfs.front().name == "bsdf 'diffuse' (line 2)");
+}
+
+TEST_CASE("a chi2test has the courses' defaults", "[unit][test_file]")
+{
+    const TestFile file =
+        load_text("<test type='chi2test'><bsdf type='diffuse'/><bsdf type='phong'/></test>");
+    CHECK(file.type == TestType::chi2test);
+    CHECK(file.significance_level == Approx(0.01));
+    CHECK(file.resolution == 10);
+    CHECK(file.min_expected == 5.0);
+    CHECK(file.directions == 5);
+    CHECK(file.sample_count == 1'000'000); // 5000 a cell
+    CHECK(file.test_count() == 10);
+}
+
+TEST_CASE("angles without a bsdf are not read", "[unit][test_file]")
+{
+    const TestFile file = load_text("<test type='ttest' dialect='epfl'><string name='angles' value='0'/>"
+                                    "<string name='references' value='0'/>" +
+                                    scene_start + "</scene></test>");
+    REQUIRE(file.warnings.size() == 1);
+    CHECK(file.warnings.front().message == "angles are for tests of bsdfs; these are not read");
+    CHECK(file.scenes.front().name == "scene (line 1), normals");
+}
+
+TEST_CASE("the scenes of a ttest are read in one dialect", "[unit][test_file][dialect]")
+{
+    const auto dialect = [](const std::string& attribute, const std::string& integrator) {
+        return load_text("<test type='ttest'" + attribute +
+                         "><string name='references' value='0'/><scene><integrator type='" + integrator +
+                         "'/><camera type='perspective'/></scene></test>")
+            .scenes.front()
+            .dialect;
+    };
+    CHECK(dialect("", "direct_mis").name == DialectName::epfl); // a scene alone would be Zaragoza's
+    CHECK_FALSE(dialect("", "direct_mis").emitters_absorb);
+    CHECK(dialect("", "av").name == DialectName::eth);
+    CHECK(dialect(" dialect='mcgill'", "path_ems").name == DialectName::mcgill);
+
+    // The evidence of one scene holds for all; a scene that says otherwise is on its own.
+    const TestFile file = load_text(
+        "<test type='ttest'><string name='references' value='0 0 0'/>"
+        "<scene><integrator type='path_mis'/><camera type='perspective'/></scene>"
+        "<scene><integrator type='av'><float name='length' value='1'/></integrator>"
+        "<camera type='perspective'/></scene>"
+        "<scene dialect='zaragoza'><integrator type='path_mis'/><camera type='perspective'/></scene></test>");
+    REQUIRE(file.scenes.size() == 3);
+    CHECK(file.scenes[0].dialect.name == DialectName::eth);
+    CHECK(file.scenes[1].dialect.name == DialectName::eth);
+    CHECK(file.scenes[2].dialect.name == DialectName::zaragoza);
+    CHECK(file.warnings.empty());
+}
+
+TEST_CASE("the scenes of a ttest include files and name values", "[unit][test_file]")
+{
+    const TempFolder files;
+    files.write("part.xml",
+                "<scene><default name='kind' value='normals'/><camera type='perspective'/></scene>");
+    const std::string text = "<test type='ttest'><string name='references' value='0 $zero'/>"
+                             "<scene><include filename='part.xml'/><integrator type='$kind'/></scene>" +
+                             scene_start + "<default name='zero' value='0'/></scene></test>";
+    const TestFile file = load_test(files.write("test.xml", text));
+    CHECK(file.references == std::vector<double>{0, 0});
+    REQUIRE(file.scenes.size() == 2);
+    CHECK(file.scenes.front().name == "scene (line 1), normals");
+}
