@@ -97,7 +97,7 @@ struct ScaleTest {
 };
 
 enum class Finding { not_asked, same, different, undecided };
-enum class Outcome { passes, differs, undecided };
+enum class CompareOutcome { passes, differs, undecided };
 
 struct Significance {
     Finding finding = Finding::not_asked;
@@ -124,7 +124,7 @@ struct Comparison {
     std::optional<NoiseCorrected> corrected;
     Significance significance;
     std::vector<Threshold> exceeded;
-    Outcome outcome = Outcome::undecided;
+    CompareOutcome outcome = CompareOutcome::undecided;
 };
 
 // Throws Error if they cannot be compared: different sizes, missing channels, an unknown metric.

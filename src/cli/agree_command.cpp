@@ -71,9 +71,9 @@ std::string pair_text(const Pair& pair)
     const Significance& found = pair.comparison.significance;
     std::string text = fmt::format(
         "  {} and {}: {}, p {:.3g}", pair.a.name, pair.b.name,
-        pair.comparison.outcome == Outcome::passes ? "agree" : outcome_word(pair.comparison.outcome),
+        pair.comparison.outcome == CompareOutcome::passes ? "agree" : outcome_word(pair.comparison.outcome),
         found.p);
-    if (pair.comparison.outcome == Outcome::undecided && !found.reason.empty())
+    if (pair.comparison.outcome == CompareOutcome::undecided && !found.reason.empty())
         text += fmt::format(" ({})", found.reason);
     if (found.detectable_bias)
         text += fmt::format("; a bias of {:.3g} % would have been found with 90 % probability",
@@ -81,22 +81,22 @@ std::string pair_text(const Pair& pair)
     return text + "\n";
 }
 
-Outcome outcome_of(const std::vector<Pair>& pairs)
+CompareOutcome outcome_of(const std::vector<Pair>& pairs)
 {
-    Outcome worst = Outcome::passes;
+    CompareOutcome worst = CompareOutcome::passes;
     for (const Pair& pair : pairs) {
-        if (pair.comparison.outcome == Outcome::differs) return Outcome::differs;
-        if (pair.comparison.outcome == Outcome::undecided) worst = Outcome::undecided;
+        if (pair.comparison.outcome == CompareOutcome::differs) return CompareOutcome::differs;
+        if (pair.comparison.outcome == CompareOutcome::undecided) worst = CompareOutcome::undecided;
     }
     return worst;
 }
 
-const char* verdict_of(Outcome outcome)
+const char* verdict_of(CompareOutcome outcome)
 {
     switch (outcome) {
-    case Outcome::passes: return "agree";
-    case Outcome::differs: return "differ";
-    case Outcome::undecided: return "undecided";
+    case CompareOutcome::passes: return "agree";
+    case CompareOutcome::differs: return "differ";
+    case CompareOutcome::undecided: return "undecided";
     }
     return "";
 }
@@ -148,12 +148,10 @@ void check_request(const Options& options)
 
 std::string_view agree_manual()
 {
-    return "Renders the scene with each estimator, each with random numbers of its own and without a depth "
-           "cut, and\n"
-           "compares all pairs as `renderer compare` does; the significance is that of all pairs together. "
-           "An error that\n"
-           "all the estimators share - in a BSDF, the camera, a mesh - makes no difference between them and "
-           "is not found.\n"
+    return "Renders the scene with each estimator, each with random numbers of its own and without a depth\n"
+           "cut, and compares all pairs as `renderer compare` does; the significance is that of all pairs\n"
+           "together. An error that all the estimators share - in a BSDF, the camera, a mesh - makes no\n"
+           "difference between them and is not found.\n"
            "Exit code: 0 they agree, 1 the scene is wrong, 2 wrong usage, 3 they differ, 4 undecided.\n";
 }
 
@@ -181,7 +179,7 @@ int agree_command(const Options& options)
             pairs.push_back(
                 {estimates[i], estimates[j], compare(estimates[i].image, estimates[j].image, how)});
 
-    const Outcome outcome = outcome_of(pairs);
+    const CompareOutcome outcome = outcome_of(pairs);
     const std::string json = options.json.empty() ? "" : agreement_json(options, estimates, pairs);
     if (!options.quiet && options.json != "-") {
         print_output(options.subject + "\n");
@@ -196,7 +194,7 @@ int agree_command(const Options& options)
         print_output(json);
     else if (!options.json.empty())
         write_text_file(options.json, json);
-    return outcome == Outcome::passes ? 0 : outcome == Outcome::differs ? differ : undecided;
+    return outcome == CompareOutcome::passes ? 0 : outcome == CompareOutcome::differs ? differ : undecided;
 }
 
 } // namespace plumb

@@ -67,9 +67,9 @@ int compare_command(const Options& options)
         print_output("A " + options.subject + "\nB " + options.subjects[1] + "\n" +
                      comparison_text(comparison, how));
     switch (comparison.outcome) {
-    case Outcome::passes: return 0;
-    case Outcome::differs: return differs;
-    case Outcome::undecided: return undecided;
+    case CompareOutcome::passes: return 0;
+    case CompareOutcome::differs: return differs;
+    case CompareOutcome::undecided: return undecided;
     }
     return undecided;
 }

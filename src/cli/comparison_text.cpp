@@ -45,7 +45,7 @@ std::string metrics_text(const Comparison& c)
                            : "0");
     if (m.flip) text += row("flip", number(*m.flip) + (c.flip_mode == FlipMode::ldr ? " (LDR)" : " (HDR)"));
     text += row("mean luminance", fmt::format("{} and {}", number(m.mean_a), number(m.mean_b)));
-    if (c.corrected) {
+    if (c.corrected && !c.identical) {
         text += row("without noise",
                     fmt::format("mse {}, 95 % between {} and {}; rmse {}", number(c.corrected->squared_error),
                                 number(c.corrected->low), number(c.corrected->high),
@@ -80,9 +80,8 @@ std::string finding_text(const Significance& s, const CompareOptions& options)
     case Finding::same:
         return fmt::format("no difference beyond the noise at significance {}", options.significance);
     case Finding::different:
-        return fmt::format(
-            "a difference beyond the noise at significance {}: {} of the pixels lie in squares that differ",
-            options.significance, percent(s.differing, s.pixels));
+        return fmt::format("a difference beyond the noise at significance {}: {} of the pixels differ",
+                           options.significance, percent(s.differing, s.pixels));
     case Finding::undecided: return fmt::format("undecided: {}", s.reason);
     }
     return {};
@@ -120,12 +119,12 @@ std::string threshold_text(const Comparison& c, const CompareOptions& options)
 
 } // namespace
 
-std::string_view outcome_word(Outcome outcome)
+std::string_view outcome_word(CompareOutcome outcome)
 {
     switch (outcome) {
-    case Outcome::passes: return "passes";
-    case Outcome::differs: return "differs";
-    case Outcome::undecided: return "undecided";
+    case CompareOutcome::passes: return "passes";
+    case CompareOutcome::differs: return "differs";
+    case CompareOutcome::undecided: return "undecided";
     }
     return "";
 }

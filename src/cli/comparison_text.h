@@ -13,6 +13,6 @@ std::string comparison_text(const Comparison& comparison, const CompareOptions& 
 std::string comparison_json(const Comparison& comparison, const CompareOptions& options, const std::string& a,
                             const std::string& b);
 
-std::string_view outcome_word(Outcome outcome); // passes, differs, undecided
+std::string_view outcome_word(CompareOutcome outcome); // passes, differs, undecided
 
 } // namespace plumb

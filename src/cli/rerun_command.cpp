@@ -107,11 +107,9 @@ void check_inputs(const LoadedScene& scene, const Recipe& recipe, const Options&
 
 std::string_view rerun_manual()
 {
-    return "Renders a picture of ours again from what its header says, to the same file, byte for byte. The "
-           "scene file\n"
-           "is looked for where it was, seen from this folder or from the picture's; if it, a mesh, an image "
-           "or this\n"
-           "program is not what it was, the error names it.\n";
+    return "Renders a picture of ours again from what its header says, to the same file, byte for byte.\n"
+           "The scene file is looked for where it was, seen from this folder or from the picture's; if\n"
+           "it, a mesh, an image or this program is not what it was, the error names it.\n";
 }
 
 void rerun_command(const Options& run)

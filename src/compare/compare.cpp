@@ -79,14 +79,16 @@ bool is_exceeded(const Metrics& metrics, const Threshold& threshold)
     return threshold.metric == "psnr" ? !(value >= threshold.limit) : !(value <= threshold.limit);
 }
 
-Outcome find_outcome(const Comparison& comparison, const CompareOptions& options, std::uint64_t tolerated)
+CompareOutcome find_outcome(const Comparison& comparison, const CompareOptions& options,
+                            std::uint64_t tolerated)
 {
     const Finding finding = comparison.significance.finding;
-    if (!comparison.exceeded.empty() || finding == Finding::different) return Outcome::differs;
-    if (comparison.non_finite.only_a + comparison.non_finite.only_b > tolerated) return Outcome::differs;
-    if (comparison.identical || finding == Finding::same) return Outcome::passes;
-    return finding == Finding::not_asked && !options.thresholds.empty() ? Outcome::passes
-                                                                        : Outcome::undecided;
+    if (!comparison.exceeded.empty() || finding == Finding::different) return CompareOutcome::differs;
+    if (comparison.non_finite.only_a + comparison.non_finite.only_b > tolerated)
+        return CompareOutcome::differs;
+    if (comparison.identical || finding == Finding::same) return CompareOutcome::passes;
+    return finding == Finding::not_asked && !options.thresholds.empty() ? CompareOutcome::passes
+                                                                        : CompareOutcome::undecided;
 }
 
 } // namespace

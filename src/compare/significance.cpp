@@ -127,9 +127,9 @@ private:
         return deviation(unit, sampling_, LeastNoise{around.a.variance / pixels, around.b.variance / pixels});
     }
 
-    // tests: by how many the chance of a false alarm is divided.
+    // p: of this test alone.
     UnitTest describe(const UnitSums& unit, const PixelRect& place, std::size_t channel,
-                      const Deviation& found, double tests) const
+                      const Deviation& found) const
     {
         UnitTest result;
         result.place = place;
@@ -139,7 +139,7 @@ private:
         result.mean_b = unit.b.mean / pixels;
         result.t = found.t;
         result.freedom = found.freedom;
-        result.p = std::min(1.0, tests * student_t_two_sided(found.t, found.freedom));
+        result.p = student_t_two_sided(found.t, found.freedom);
         return result;
     }
 
@@ -147,6 +147,12 @@ private:
     {
         if (!other || test.p < other->p) return true;
         return test.p == other->p && std::abs(test.t) > std::abs(other->t);
+    }
+
+    // p of one of so many tests.
+    static void adjust(std::optional<UnitTest>& test, double tests)
+    {
+        if (test) test->p = std::min(1.0, tests * test->p);
     }
 
     ScaleTest test_scale(int size, double share)
@@ -176,14 +182,15 @@ private:
                 const Deviation found = deviation_of(all[i], place, size, channel);
                 // Student's tails are above the normal ones.
                 if (result.largest && std::abs(found.t) < interesting) continue;
-                const UnitTest test = describe(all[i], place, channel, found, tests);
-                if (test.p <= options_.significance) units[i].is_rejected = true;
+                const UnitTest test = describe(all[i], place, channel, found);
+                if (tests * test.p <= options_.significance) units[i].is_rejected = true;
                 if (!is_larger(test, result.largest)) continue;
                 result.largest = test;
-                const double p = std::max(test.p, options_.significance) / tests;
-                interesting = student_t_quantile(p, static_cast<double>(infinity));
+                interesting = student_t_quantile(std::max(test.p, options_.significance / tests),
+                                                 static_cast<double>(infinity));
             }
         }
+        adjust(result.largest, tests);
         for (const Unit& unit : units) {
             result.tested += unit.is_tested ? 1 : 0;
             result.rejected += unit.is_rejected ? 1 : 0;
@@ -212,10 +219,10 @@ private:
             const UnitSums unit = sums(whole, channel).front();
             if (is_black(unit) || !is_supported(unit, sampling_)) continue;
             const UnitTest test =
-                describe(unit, a_.window, channel, deviation_of(unit, a_.window, 0, channel),
-                         static_cast<double>(a_.channels.size()) / share);
+                describe(unit, a_.window, channel, deviation_of(unit, a_.window, 0, channel));
             if (is_larger(test, result)) result = test;
         }
+        adjust(result, static_cast<double>(a_.channels.size()) / share);
         return result;
     }
 

@@ -147,6 +147,7 @@ double chi2_survival(double statistic, double degrees_of_freedom)
 
 double normal_survival(double z)
 {
+    if (std::abs(z) == std::numeric_limits<double>::infinity()) return z < 0.0 ? 1.0 : 0.0;
     const double tail = 0.5 * regularised_gamma_q(0.5, z * z / 2.0); // [1], 26.2.29 and 6.5.17
     return z < 0.0 ? 1.0 - tail : tail;
 }

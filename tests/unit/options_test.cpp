@@ -153,6 +153,41 @@ TEST_CASE("verbs come first and take their own options", "[unit][options]")
     CHECK(closest_verb("cbox.xml").empty());
 }
 
+TEST_CASE("compare takes two images", "[unit][options]")
+{
+    const Options options =
+        parse("compare a.exr b.exr --max rmse=0.25,flip=0.5 --max psnr=30 --significance 0.05 "
+              "--exact B --fail-percent 2 --diff d.png --diff-of flip --no-verdict --flip ldr");
+    CHECK(options.verb == Verb::compare);
+    CHECK(options.subject == "a.exr");
+    CHECK(options.subjects == std::vector<std::string>{"a.exr", "b.exr"});
+    CHECK(options.compare.difference == "d.png");
+    CHECK(options.compare.difference_is_flip);
+    CHECK_FALSE(options.compare.choose_flip);
+    const CompareOptions& how = options.compare.how;
+    CHECK(how.significance == 0.05);
+    CHECK(how.exact == Side::b);
+    CHECK(how.fail_percent == 2.0);
+    CHECK(how.flip == FlipMode::ldr);
+    CHECK_FALSE(how.verdict);
+    REQUIRE(how.thresholds.size() == 3);
+    CHECK(how.thresholds[0].metric == "rmse");
+    CHECK(how.thresholds[0].limit == 0.25);
+    CHECK(how.thresholds[2].metric == "psnr");
+
+    CHECK(usage_error("compare a.exr") == "compare needs two images; 'renderer compare --help' shows how");
+    CHECK(usage_error("compare a.exr b.exr c.exr") == "'c.exr' is one word too many after 'a.exr'");
+    CHECK(usage_error("compare a.exr b.exr --max rmse") == "--max must be name=value, not 'rmse'");
+    CHECK(usage_error("compare a.exr b.exr --max rmse=x") ==
+          "--max rmse must be a number from -1e+30 to 1e+30, not 'x'");
+    CHECK(usage_error("compare a.exr b.exr --max rmse=1,rmse=2") == "--max rmse is given twice");
+    CHECK(usage_error("compare a.exr b.exr --max ssim=1") ==
+          "--max cannot be 'ssim'; known are mse, rmse, relmse, mae, max, psnr and flip");
+    CHECK(usage_error("compare a.exr b.exr --json d.png --diff d.png") == "'d.png' is to be written twice");
+    CHECK(usage_error("compare a.exr b.exr --exact C") == "--exact cannot be 'C'; known are A and B");
+    CHECK(usage_error("compare a.exr b.exr --spp 4") == "option '--spp' does not go with compare");
+}
+
 TEST_CASE("what replay needs is kept, quoted for a shell", "[unit][options]")
 {
     const Options options =
@@ -171,7 +206,8 @@ TEST_CASE("help and version need no scene", "[unit][options]")
 
 TEST_CASE("--help names every option of its verb", "[unit][options]")
 {
-    for (const Verb verb : {Verb::render, Verb::types, Verb::info, Verb::replay, Verb::test}) {
+    for (const VerbRow& row_of_verb : verb_rows()) {
+        const Verb verb = row_of_verb.verb;
         const std::string help = help_text(verb);
         for (const OptionRow& row : option_rows()) {
             INFO(row.names);
