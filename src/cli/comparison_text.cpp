@@ -50,6 +50,8 @@ std::string metrics_text(const Comparison& c)
                     fmt::format("mse {}, 95 % between {} and {}; rmse {}", number(c.corrected->squared_error),
                                 number(c.corrected->low), number(c.corrected->high),
                                 c.corrected->root ? number(*c.corrected->root) : "0"));
+        if (c.corrected->high < 0.0)
+            text += row("", "below 0: they differ less than independent noise would (the same seed?)");
     }
     const NonFinite& n = c.non_finite;
     if (n.first)

@@ -67,20 +67,15 @@ public:
         std::vector<int> sizes;
         for (int size = 1; size < std::max(a_.window.width, a_.window.height); size *= 2)
             sizes.push_back(size);
+        const double whole_share = sizes.empty() ? 1.0 : share_of_whole;
         const double share =
             (1.0 - share_of_whole) / static_cast<double>(std::max<std::size_t>(sizes.size(), 1));
-        for (const int size : sizes) result.scales.push_back(test_scale(size, share));
-        const double whole_share = sizes.empty() ? 1.0 : share_of_whole;
-        const bool all_are_left = std::find(states_.begin(), states_.end(), State::differs) == states_.end();
+        // Of the whole as it is, before rejected squares are left out.
         find_detectable_bias(result, whole_share);
-        const std::vector<State> before = states_;
-        for (State& state : states_)
-            if (state == State::differs) state = State::usable;
-        const std::optional<UnitTest> everything =
-            all_are_left ? std::nullopt : largest_of_whole(whole_share);
-        states_ = before;
+        const std::optional<UnitTest> whole = largest_of_whole(whole_share);
+        for (const int size : sizes) result.scales.push_back(test_scale(size, share));
         result.scales.push_back(test_scale(0, whole_share));
-        if (everything) result.scales.back().largest = everything;
+        result.scales.back().largest = whole;
 
         result.pixels = states_.size();
         for (const ScaleTest& scale : result.scales)
@@ -210,7 +205,7 @@ private:
         return result;
     }
 
-    // Of all pixels that are usable now.
+    // Of all pixels that are usable now, with its p among the channels.
     std::optional<UnitTest> largest_of_whole(double share) const
     {
         std::optional<UnitTest> result;

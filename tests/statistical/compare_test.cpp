@@ -95,24 +95,25 @@ TEST_CASE("compare keeps its error rate", "[statistical][compare][slow]")
 {
     struct Case {
         SampleKind kind;
+        int size;
         int samples;
         std::uint64_t trials;
     };
     std::vector<Case> cases;
     for (const double chance : {1e-4, 1e-3, 1e-2, 1e-1})
         for (const int samples : {64, 512, 4096})
-            cases.push_back({hits(chance), samples, chance > 0.05 ? 100u : 400u});
+            cases.push_back({hits(chance), 32, samples, chance > 0.05 ? 50u : 400u});
     for (const int samples : {64, 1024}) {
         const std::uint64_t trials = samples == 64 ? 400 : 40;
         for (const SampleKind& kind :
              {normal_samples(0.3), exponential_samples(), lognormal_samples(1.0), lognormal_samples(2.0)})
-            cases.push_back({kind, samples, trials});
+            cases.push_back({kind, 16, samples, trials});
     }
     const double level = sidak_level(significance, 4 * cases.size());
     for (const Case& test : cases)
         for (const Other other : all_others) {
             NoisyPicture how;
-            how.size = 32;
+            how.size = test.size;
             how.samples = test.samples;
             how.contrast = other == Other::same_samples ? 1000.0 : 1.0;
             check_false_alarms(how, test.kind, other,

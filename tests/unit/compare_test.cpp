@@ -189,12 +189,15 @@ TEST_CASE("a bias is found, and where it is", "[unit][compare]")
             for (int x = 16; x < 24; ++x) b.pixel(x, y)[1] *= 1.5f;
         const Significance s = compare(a, b, without_flip()).significance;
         CHECK(s.finding == Finding::different);
-        const ScaleTest& blocks = s.scales[3];
-        REQUIRE(blocks.size == 8);
-        REQUIRE(blocks.largest);
-        CHECK(blocks.largest->place == PixelRect{16, 8, 8, 8});
-        CHECK(blocks.largest->channel == 1);
-        CHECK(blocks.largest->p <= 0.01);
+        UnitTest most;
+        for (const ScaleTest& scale : s.scales)
+            if (scale.size != 0 && scale.largest && scale.largest->p < most.p) most = *scale.largest;
+        INFO(most.place.x << "," << most.place.y << " " << most.place.width << " p " << most.p);
+        CHECK(most.p <= 0.01);
+        CHECK(most.channel == 1);
+        CHECK(most.place.width <= 8);
+        CHECK((most.place.x >= 16 && most.place.x < 24 && most.place.y >= 8 && most.place.y < 16));
+        CHECK(s.differing >= 4);
         CHECK(s.differing <= 64);
     }
     SECTION("in one pixel, which may be tolerated")

@@ -176,7 +176,7 @@ TEST_CASE("compare takes two images", "[unit][options]")
     CHECK(how.thresholds[2].metric == "psnr");
 
     CHECK(usage_error("compare a.exr") == "compare needs two images; 'renderer compare --help' shows how");
-    CHECK(usage_error("compare a.exr b.exr c.exr") == "'c.exr' is one word too many after 'a.exr'");
+    CHECK(usage_error("compare a.exr b.exr c.exr") == "'c.exr' is one word too many after 'b.exr'");
     CHECK(usage_error("compare a.exr b.exr --max rmse") == "--max must be name=value, not 'rmse'");
     CHECK(usage_error("compare a.exr b.exr --max rmse=x") ==
           "--max rmse must be a number from -1e+30 to 1e+30, not 'x'");
