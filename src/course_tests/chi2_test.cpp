@@ -17,8 +17,8 @@ namespace {
 // A density of 0 is one of rounding, too: this share of the samples may fall where it is 0.
 constexpr double stray_share = 1e-5;
 
-// Of the chance of one cell: some hundred times below the noise of 1e8 samples.
-constexpr double chance_error = 1e-9;
+// What quadrature may be off by, in samples expected in a cell: a cell that counts expects some, with noise above 1.
+constexpr double count_error = 0.05;
 
 // Cells of equal solid angle: rows of cos theta, columns of phi.
 class CellGrid {
@@ -56,7 +56,7 @@ private:
 };
 
 // The chance that a sample falls into a cell.
-double cell_chance(const Bsdf& bsdf, const Vec3f& wi, const Rectangle2d& cell)
+double cell_chance(const Bsdf& bsdf, const Vec3f& wi, const Rectangle2d& cell, double tolerance)
 {
     const auto density = [&](double cos_theta, double phi) {
         const double sine = std::sqrt(std::max(0.0, 1.0 - cos_theta * cos_theta));
@@ -66,7 +66,7 @@ double cell_chance(const Bsdf& bsdf, const Vec3f& wi, const Rectangle2d& cell)
         return static_cast<double>(bsdf.evaluate(SurfacePoint(), wi, wo).pdf);
     };
     const auto integral = [&](const Rectangle2d& area) {
-        return area.x1 > area.x0 ? integrate(density, area, 8, chance_error) : 0.0;
+        return area.x1 > area.x0 ? integrate(density, area, 8, tolerance) : 0.0;
     };
     // Densities jump at the horizon, which may cut a cell in two.
     const double horizon = std::clamp(0.0, cell.x0, cell.x1);
@@ -76,10 +76,11 @@ double cell_chance(const Bsdf& bsdf, const Vec3f& wi, const Rectangle2d& cell)
 std::vector<double> expected_counts(const Bsdf& bsdf, const Vec3f& wi, const CellGrid& grid,
                                     const RunOptions& options)
 {
+    const auto samples = static_cast<double>(options.samples);
     std::vector<double> expected(grid.cells());
     parallel_for(expected.size(), options.threads, [&](std::size_t cell) {
         const FlushDenormals flush;
-        expected[cell] = cell_chance(bsdf, wi, grid.area(cell)) * static_cast<double>(options.samples);
+        expected[cell] = samples * cell_chance(bsdf, wi, grid.area(cell), count_error / samples);
     });
     return expected;
 }

@@ -44,7 +44,8 @@ double refine(const Function& f, const Rectangle2d& r, double whole, double tole
     double parts[4];
     double sum = 0.0;
     for (int i = 0; i < 4; ++i) sum += parts[i] = gauss(f, quarters[i]);
-    if (depth == max_depth || std::abs(sum - whole) <= tolerance) return sum;
+    if (depth == max_depth || !(std::abs(sum - whole) > tolerance))
+        return sum; // also where f is not a number
     sum = 0.0;
     for (int i = 0; i < 4; ++i) sum += refine(f, quarters[i], parts[i], 0.5 * tolerance, depth + 1);
     return sum;

@@ -109,7 +109,6 @@ TEST_CASE("the scenes of a ttest are read in one dialect", "[unit][test_file][di
     };
     CHECK(dialect("", "direct_mis").name == DialectName::epfl); // a scene alone would be Zaragoza's
     CHECK_FALSE(dialect("", "direct_mis").emitters_absorb);
-    CHECK(dialect("", "av").name == DialectName::eth);
     CHECK(dialect(" dialect='mcgill'", "path_ems").name == DialectName::mcgill);
 
     // The evidence of one scene holds for all; a scene that says otherwise is on its own.
