@@ -6,7 +6,7 @@
 
 Scene files, meshes and textures go to tests/scenes/independent/, references to references/independent/: channels
 R, G, B and variance.R, variance.G, variance.B, the variance of each mean. Without names, all of them, and the README
-of the references. Needs Mitsuba 3 and NumPy (references/independent/README.md says how).
+of the references. Needs Mitsuba 3, NumPy and LLVM (references/independent/README.md says how).
 """
 
 import argparse
@@ -23,6 +23,7 @@ ROOT = HERE.parent.parent
 SCENE_FOLDER = ROOT / "tests" / "scenes" / "independent"
 REFERENCE_FOLDER = ROOT / "references" / "independent"
 VARIANT = "llvm_ad_rgb"
+CHANNELS = ["R", "G", "B", "variance.R", "variance.G", "variance.B"]
 
 
 def write_picture(path, data, names, attributes):
@@ -41,6 +42,13 @@ def write_scene(scene):
     for picture in plumb_xml.pictures(scene):
         write_picture(SCENE_FOLDER / (picture.name + ".exr"), picture.rows, ["R", "G", "B"], {})
     (SCENE_FOLDER / (scene.name + ".xml")).write_text(plumb_xml.scene_text(scene))
+
+
+def read_reference(path):
+    data = np.array(mi.Bitmap(str(path)), dtype=np.float64)
+    names = [field.name for field in mi.Bitmap(str(path)).struct_()]
+    order = [names.index(name) for name in CHANNELS]
+    return data[:, :, order[:3]], data[:, :, order[3:]]
 
 
 def judge(scene, replicates, samples):
@@ -68,7 +76,7 @@ def main():
     parser.add_argument("names", nargs="*")
     options = parser.parse_args()
 
-    mi.set_variant(VARIANT)
+    mi.set_variant("scalar_rgb" if options.scenes_only else VARIANT)
     sys.path.insert(0, str(HERE))
     import readme
     from scenes import SCENES
@@ -86,13 +94,14 @@ def main():
         start = time.time()
         mean, variance, attributes = judge(scene, options.replicates, options.samples)
         attributes |= {"judge:scene": scene.name, "judge:script": "tools/judge/make.py"}
-        names = ["R", "G", "B", "variance.R", "variance.G", "variance.B"]
         path = REFERENCE_FOLDER / (scene.name + ".exr")
-        write_picture(path, np.concatenate([mean, variance], axis=2), names, attributes)
+        write_picture(path, np.concatenate([mean, variance], axis=2), CHANNELS, attributes)
         error = np.sqrt(variance.mean()) / mean.mean()
         print(f"{scene.name}: mean {mean.mean():.5f}, RMSE {100 * error:.3f} %, {time.time() - start:.1f} s, "
               f"{os.path.getsize(path)} bytes", flush=True)  # fmt: skip
-    (REFERENCE_FOLDER / "README.md").write_text(readme.text(SCENES, mi.__version__, VARIANT, options))
+    if not options.scenes_only:
+        text = readme.text(SCENES, REFERENCE_FOLDER, read_reference, mi.__version__, VARIANT, options)
+        (REFERENCE_FOLDER / "README.md").write_text(text)
 
 
 if __name__ == "__main__":

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""Turns a description into a Mitsuba 3 dictionary, and renders it. Models that Mitsuba has not raise KeyError."""
+"""Turns a description into a Mitsuba 3 dictionary, and renders it."""
 
 import mitsuba as mi
 import numpy as np
 
+import mitsuba_models
 from description import Checkerboard, Color, Picture
 
 Transform = mi.ScalarTransform4f
@@ -22,7 +23,8 @@ def steps_transform(steps):
     result = Transform()
     for step in steps:
         if step[0] == "rotate":
-            one = Transform().rotate([float(x) for x in step[1]], float(step[2]))
+            axis = np.array(step[1], dtype=float)  # Mitsuba expects a unit vector, and does not say so
+            one = Transform().rotate((axis / np.linalg.norm(axis)).tolist(), float(step[2]))
         else:
             one = getattr(Transform(), step[0])([float(x) for x in step[1]])
         result = one @ result  # the first step is applied first
@@ -38,7 +40,9 @@ def texture(value):
         # Mitsuba's has 2 x 2 squares in the unit square, color0 at the corner.
         scale = [0.5 / value.scale[0], 0.5 / value.scale[1], 1.0]
         offset = [-value.delta[0], -value.delta[1], 0.0]
-        ends = [raw(x) if isinstance(x, tuple) else float(x) for x in (value.first, value.second)]
+        ends = [value.first, value.second]
+        # Mitsuba 3.9.1's checkerboard begins with color0 where it is asked for colours, with color1 where for a number.
+        ends = [raw(x) for x in ends] if isinstance(ends[0], tuple) else [float(x) for x in reversed(ends)]
         return {
             "type": "checkerboard",
             "color0": ends[0],
@@ -102,8 +106,8 @@ def bsdf(description):
 
     def roughconductor():
         if p["R0"] != (1.0, 1.0, 1.0):
-            raise KeyError("Mitsuba has no metal after Schlick")  # but where R0 is 1 it is 1 at all angles
-        return rough_metal(p, material="none")
+            return mitsuba_models.plugin(description)
+        return rough_metal(p, material="none")  # Schlick's formula is 1 at all angles where R0 is 1
 
     def roughdielectric():
         interior, exterior = dielectric_indices(p)
@@ -120,6 +124,8 @@ def bsdf(description):
         }
 
     known = {f.__name__: f for f in (diffuse, mirror, dielectric, microfacet, roughconductor, roughdielectric)}
+    if description.type not in known:
+        return mitsuba_models.plugin(description)
     return known[description.type]()
 
 

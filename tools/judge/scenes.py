@@ -4,7 +4,7 @@
 from description import Camera, Checkerboard, Filter, Light, Scene, Shape
 from objects import (
     GREY, MIRROR, PAINTING, ball, board, cube, dielectric, diffuse, dome, floor, frosted, gem, mesh_lamp, metal,
-    microfacet, painted_sky, panel, phong, point_light, rectangle_lamp, sheet, sky, sphere_lamp, substrate, sun,
+    microfacet, octahedron, painted_sky, panel, phong, point_light, rectangle_lamp, sheet, sky, sphere_lamp, substrate, sun,
 )  # fmt: skip
 
 SCENES = []
@@ -76,6 +76,22 @@ add("frosted-pane", "Rough pane: one surface, refraction into the denser side, p
 add("frosted-inside-out", "Rough glass whose inside is thinner", [floor(), ball(frosted(0.4, 1.0, 1.5))],
     [sky(0.9, 1.0, 0.8)], max_depth=5)
 
+# --- Models that are written as plugins for Mitsuba: on shapes, with all bounces -----------------------------------
+
+GOLD = (1.0, 0.71, 0.29)
+PLUGIN = "Mitsuba, plugin"
+add("schlick-sphere-rectangle", "Metal 0.25 after Schlick", [floor(), ball(metal(0.25, GOLD)), rectangle_lamp()], judge=PLUGIN)
+add("schlick-mesh-picture", "Metal 0.4 after Schlick", [floor(), gem(metal(0.4, (0.1, 0.3, 0.6)))], [painted_sky()], judge=PLUGIN)
+add("schlick-floor-point", "Metal 0.5 after Schlick", [floor(metal(0.5, GOLD)), ball(RED)], [point_light()], judge=PLUGIN)
+add("substrate-sphere-rectangle", "Substrate 0.2", [floor(), ball(substrate(0.2, (0.5, 0.2, 0.1))), rectangle_lamp()], judge=PLUGIN)
+add("substrate-mesh-sphere", "Substrate 0.4, index 1.9", [floor(), gem(substrate(0.4, (0.2, 0.2, 0.7), 1.9)), sphere_lamp()],
+    judge=PLUGIN)
+add("substrate-floor-sky", "Substrate 0.6", [floor(substrate(0.6, (0.6, 0.5, 0.4))), ball(RED)], [sky(1.0, 0.9, 0.8)], judge=PLUGIN)
+add("phong-sphere-point", "Phong 20", [floor(), ball(phong((0.3, 0.1, 0.1), (0.4, 0.4, 0.4), 20))], [point_light()], judge=PLUGIN)
+add("phong-mesh-lamp", "Phong 8", [floor(), gem(phong((0.1, 0.2, 0.1), (0.6, 0.5, 0.4), 8)), mesh_lamp()], judge=PLUGIN)
+add("phong-board-picture", "Phong 15, coefficients above 1 are scaled", [floor(), board(phong((0.5, 0.4, 0.3), (0.8, 0.8, 0.8), 15))],
+    [painted_sky()], judge=PLUGIN)
+
 # --- Lights together ----------------------------------------------------------------------------------------------
 
 add("lights-many", "A lamp of each kind, of very different powers",
@@ -123,8 +139,8 @@ add("filter-mitchell-sharp", "Filter mitchell with B = 0, C = 1/2 before a brigh
 
 # --- Transforms ---------------------------------------------------------------------------------------------------
 
-add("transform-mesh", "Mesh scaled unevenly, turned, mirrored",
-    [floor(), Shape("mesh", RED, mesh=cube(), steps=[("scale", (-0.5, 0.9, 0.3)), ("rotate", (1, 1, 0.5), 40.0),
+add("transform-mesh", "Meshes scaled unevenly, turned about an axis that is no unit vector, mirrored twice",
+    [floor(), Shape("mesh", RED, mesh=cube(), steps=[("scale", (-0.5, 0.9, -0.3)), ("rotate", (1, 1, 0.5), 40.0),
                                                     ("translate", (-0.6, 1.0, 0.0))]),
      Shape("mesh", diffuse(0.2, 0.6, 0.3), mesh=cube(), steps=[("rotate", (0, 0, 1), 30.0), ("scale", (0.4, 0.7, 0.5)),
                                                               ("translate", (1.0, 0.8, 0.2))])],
@@ -143,6 +159,17 @@ add("transform-lamp", "Lamps that are scaled and mirrored",
            radiance=(5.0, 9.0, 9.0))])
 add("normals-dome", "Mesh with smooth normals, lit from the front",
     [floor(), Shape("mesh", RED, mesh=dome(), steps=[("translate", (0.0, -0.4, 0.0))])], [sun((0.3, 3.0, 1.0))], max_depth=1)
+add("normals-stretched", "Mesh with smooth normals, stretched unevenly",
+    [floor(), Shape("mesh", RED, mesh=dome(), steps=[("scale", (1.1, 0.6, 1.5)), ("rotate", (0, 0, 1), 20.0),
+                                                    ("translate", (0.0, 0.2, 0.0))])], [sun((0.3, 3.0, 1.0))], max_depth=1)
+add("normals-mirrored", "Mesh with smooth normals, mirrored",
+    [floor(), Shape("mesh", RED, mesh=dome(), steps=[("scale", (-1.0, 0.8, 1.2)), ("rotate", (0, 0, 1), -20.0),
+                                                    ("translate", (0.0, 0.0, 0.0))])], [sun((0.3, 3.0, 1.0))], max_depth=1)
+add("mirrored-mesh", "Without normals, a mirror turns meshes inside out: a black octahedron, a lamp that shines to its other side",
+    [floor(),
+     Shape("mesh", RED, mesh=octahedron(), steps=[("scale", (1.0, -1.0, 1.0)), ("translate", (0.8, 1.0, 0.0))]),
+     Shape("mesh", GREY, mesh=panel(), steps=[("scale", (-1.0, 1.0, 1.0)), ("rotate", (0, 0, 1), 200.0),
+                                             ("translate", (-0.5, 3.2, 0.5))], radiance=(6.0, 6.0, 8.0))])
 
 # --- Depths -------------------------------------------------------------------------------------------------------
 
@@ -186,7 +213,6 @@ def judged_by_quadrature(name, what, bsdf, lamp, camera=ABOVE, **more):
     add(name, what, shapes, lights, camera=camera, max_depth=1, judge="quadrature", **more)
 
 
-GOLD = (1.0, 0.71, 0.29)
 QUADRATURE = [
     ("schlick-point", "Metal 0.3 after Schlick, point light", metal(0.3, GOLD), PLANE_POINT[0], ABOVE),
     ("schlick-panel", "Metal 0.15 after Schlick, rectangle lamp", metal(0.15, (0.2, 0.5, 0.9)), PLANE_PANEL, ABOVE),
