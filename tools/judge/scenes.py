@@ -223,7 +223,7 @@ QUADRATURE = [
     ("phong-point", "Phong 20, point light", phong((0.2, 0.1, 0.3), (0.5, 0.6, 0.4), 20), PLANE_POINT[0], ABOVE),
     ("phong-panel", "Phong 60, coefficients above 1 are scaled", phong((0.4, 0.5, 0.6), (0.7, 0.7, 0.7), 60), PLANE_PANEL, ABOVE),
     ("phong-ball", "Phong 5, grazing, sphere lamp", phong((0.1, 0.1, 0.1), (0.8, 0.5, 0.3), 5), PLANE_BALL, LOW),
-    ("diffuse-quadrature", "Diffuse, rectangle lamp: the quadrature itself, and the light", RED, PLANE_PANEL, LOW),
+    ("diffuse-quadrature", "Diffuse, rectangle lamp: the quadrature itself, and the light", RED, PLANE_PANEL, ABOVE),
     ("plastic-quadrature", "Microfacet 0.25, sphere lamp", microfacet(0.25, (0.2, 0.2, 0.4)), PLANE_BALL, ABOVE),
 ]
 for row in QUADRATURE:
