@@ -229,5 +229,5 @@ TEST_CASE("pictures have the expectation that the independent judge says", "[sta
 TEST_CASE("pictures have the expectation that the independent judge says, within a fraction of a percent",
           "[statistical][independent][slow]")
 {
-    check_scenes(32, 100);
+    check_scenes(32, 50);
 }

@@ -112,16 +112,16 @@ def bsdf(description):
     def roughdielectric():
         interior, exterior = dielectric_indices(p)
         tint = texture(p.get("ka", (1.0, 1.0, 1.0)))
-        return {
+        dictionary = {
             "type": "roughdielectric",
             "distribution": "beckmann",
             "alpha": texture(p.get("alpha", 0.1)),
             "int_ior": interior,
             "ext_ior": exterior,
-            "sample_visible": False,
             "specular_reflectance": tint,
             "specular_transmittance": tint,
         }
+        return mitsuba_models.rough_glass(dictionary)
 
     known = {f.__name__: f for f in (diffuse, mirror, dielectric, microfacet, roughconductor, roughdielectric)}
     if description.type not in known:

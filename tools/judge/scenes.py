@@ -75,6 +75,11 @@ add("frosted-pane", "Rough pane: one surface, refraction into the denser side, p
     [point_light(), sky(0.3, 0.3, 0.3)], max_depth=4)
 add("frosted-inside-out", "Rough glass whose inside is thinner", [floor(), ball(frosted(0.4, 1.0, 1.5))],
     [sky(0.9, 1.0, 0.8)], max_depth=5)
+for name, side in (("frosted-backlit", 1.0), ("frosted-backlit-inside", -1.0)):
+    add(name, "Rough pane before a point light and a lamp: refraction towards lights",
+        [Shape("rectangle", frosted(0.3, 1.5), center=(0.0, 1.0, 0.0), width=6.0, height=4.5, normal=(0.1, 0.2, side)),
+         Shape("sphere", GREY, center=(1.0, 1.5, -2.5), radius=0.6, radiance=(3.0, 6.0, 5.0))],
+        [point_light((-0.8, 0.5, -1.5), (2.0, 1.5, 1.0))], max_depth=1)
 
 # --- Models that are written as plugins for Mitsuba: on shapes, with all bounces -----------------------------------
 
