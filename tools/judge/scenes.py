@@ -131,9 +131,13 @@ add("lens-near", "Depth of field, sharp near", FOCUS, [sun()],
 add("lens-far", "Depth of field, sharp far, 36 x 24 pixels", FOCUS, [sky(1.0, 1.0, 1.0)],
     camera=Camera(width=36, height=24, lens_radius=0.15, focal_distance=7.0), max_depth=2)
 add("lens-bokeh", "Small lamps far out of focus: the shape of the lens",
-    [Shape("sphere", GREY, radius=0.4, radiance=(9.0, 6.0, 3.0)),
-     Shape("sphere", GREY, center=(1.4, 0.6, -3.0), radius=0.5, radiance=(1.0, 4.0, 9.0))],
+    [Shape("sphere", GREY, radius=0.9, radiance=(9.0, 6.0, 3.0)),
+     Shape("sphere", GREY, center=(2.4, 1.0, -3.0), radius=1.0, radiance=(1.0, 4.0, 9.0))],
     camera=Camera(origin=(0.4, 0.2, 8.0), target=(0.4, 0.2, 0.0), lens_radius=0.6, focal_distance=2.0), max_depth=0)
+add("lens-wide", "Lamps in focus, wide view, large lens: what is sharp is a plane",
+    [Shape("rectangle", GREY, center=(x, y, 0.0), width=0.7, height=0.7, radiance=(4.0, 5.0, 6.0))
+     for x, y in ((-3.0, 2.0), (3.0, -2.0), (3.0, 2.0), (-1.0, 0.0))],
+    camera=Camera(origin=(0.0, 0.0, 4.0), target=(0.0, 0.0, 0.0), fov=90.0, lens_radius=2.0, focal_distance=4.0), max_depth=0)
 add("camera-tilted", "Tilted camera, narrow view, 18 x 24 pixels", FOCUS, [point_light()],
     camera=Camera(origin=(3.0, 3.0, 3.5), up=(0.4, 1.0, 0.2), fov=30.0, width=18, height=24))
 for kind, more in (
