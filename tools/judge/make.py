@@ -1,0 +1,108 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Writes the scenes and references of the independent judge.
+
+    tools/judge/make.py [--scenes-only] [--replicates N] [--samples N] [NAME...]
+
+Scene files, meshes and textures go to tests/scenes/independent/, references to references/independent/: channels
+R, G, B and variance.R, variance.G, variance.B, the variance of each mean. Without names, all of them, and the README
+of the references. Needs Mitsuba 3, NumPy and LLVM (references/independent/README.md says how).
+"""
+
+import argparse
+import os
+import sys
+import time
+from pathlib import Path
+
+import mitsuba as mi
+import numpy as np
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parent.parent
+SCENE_FOLDER = ROOT / "tests" / "scenes" / "independent"
+REFERENCE_FOLDER = ROOT / "references" / "independent"
+VARIANT = "llvm_ad_rgb"
+CHANNELS = ["R", "G", "B", "variance.R", "variance.G", "variance.B"]
+
+
+def write_picture(path, data, names, attributes):
+    data = np.ascontiguousarray(data, dtype=np.float32)
+    bitmap = mi.Bitmap(data, mi.Bitmap.PixelFormat.MultiChannel if len(names) > 3 else mi.Bitmap.PixelFormat.RGB, names)
+    for name, value in attributes.items():
+        bitmap.metadata()[name] = value
+    bitmap.write(str(path))
+
+
+def write_scene(scene):
+    import plumb_xml
+
+    for mesh in plumb_xml.meshes(scene):
+        (SCENE_FOLDER / (mesh.name + ".obj")).write_text(plumb_xml.mesh_text(mesh))
+    for picture in plumb_xml.pictures(scene):
+        write_picture(SCENE_FOLDER / (picture.name + ".exr"), picture.rows, ["R", "G", "B"], {})
+    (SCENE_FOLDER / (scene.name + ".xml")).write_text(plumb_xml.scene_text(scene))
+
+
+def read_reference(path):
+    data = np.array(mi.Bitmap(str(path)), dtype=np.float64)
+    names = [field.name for field in mi.Bitmap(str(path)).struct_()]
+    order = [names.index(name) for name in CHANNELS]
+    return data[:, :, order[:3]], data[:, :, order[3:]]
+
+
+def judge(scene, replicates, samples):
+    """Mean, variance and attributes."""
+    if scene.judge == "quadrature":
+        import quadrature
+
+        mean, variance = quadrature.render(scene)
+        return mean, variance, {"judge": f"quadrature, numpy {np.__version__}", "judge:replicates": "0"}
+    import mitsuba_scene
+
+    mean, variance = mitsuba_scene.render(scene, SCENE_FOLDER, replicates, samples)
+    return mean, variance, {
+        "judge": f"Mitsuba {mi.__version__} {VARIANT}",
+        "judge:replicates": str(replicates),
+        "judge:samples": str(replicates * samples),
+    }
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Writes the scenes and references of the independent judge.")
+    parser.add_argument("--scenes-only", action="store_true")
+    parser.add_argument("--replicates", type=int, default=32)
+    parser.add_argument("--samples", type=int, default=1024, help="per pixel and replicate")
+    parser.add_argument("names", nargs="*")
+    options = parser.parse_args()
+
+    mi.set_variant("scalar_rgb" if options.scenes_only else VARIANT)
+    sys.path.insert(0, str(HERE))
+    import readme
+    from scenes import SCENES
+
+    unknown = set(options.names) - {scene.name for scene in SCENES}
+    if unknown:
+        parser.error("unknown scene " + ", ".join(sorted(unknown)))
+    chosen = [scene for scene in SCENES if not options.names or scene.name in options.names]
+    SCENE_FOLDER.mkdir(parents=True, exist_ok=True)
+    REFERENCE_FOLDER.mkdir(parents=True, exist_ok=True)
+    for scene in chosen:
+        write_scene(scene)
+        if options.scenes_only:
+            continue
+        start = time.time()
+        mean, variance, attributes = judge(scene, options.replicates, options.samples)
+        attributes |= {"judge:scene": scene.name, "judge:script": "tools/judge/make.py"}
+        path = REFERENCE_FOLDER / (scene.name + ".exr")
+        write_picture(path, np.concatenate([mean, variance], axis=2), CHANNELS, attributes)
+        error = np.sqrt(variance.mean()) / mean.mean()
+        print(f"{scene.name}: mean {mean.mean():.5f}, RMSE {100 * error:.3f} %, {time.time() - start:.1f} s, "
+              f"{os.path.getsize(path)} bytes", flush=True)  # fmt: skip
+    if not options.scenes_only:
+        text = readme.text(SCENES, REFERENCE_FOLDER, read_reference, mi.__version__, VARIANT, options)
+        (REFERENCE_FOLDER / "README.md").write_text(text)
+
+
+if __name__ == "__main__":
+    main()
