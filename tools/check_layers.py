@@ -13,8 +13,8 @@ import sys
 from pathlib import Path
 
 # From the bottom to the top.
-LAYERS = ["math", "core", "interfaces", "plugins", "scene", "integrators", "render", "scene_file", "course_tests",
-          "compare", "cli"]
+LAYERS = ["math", "core", "interfaces", "plugins", "scene", "integrators", "render", "check", "scene_file",
+          "course_tests", "compare", "cli"]
 
 # include/plumb/NAME.h, and src/**/NAME.cpp beside it, belong to a layer by name.
 HEADERS = {
@@ -24,6 +24,7 @@ HEADERS = {
     "interfaces": "bsdf camera emitter filter integrator params sampler shape surface texture",
     "scene": "scene tracer",
     "render": "evidence film render",
+    "check": "check",
     "scene_file": "load scene_file test_file",
     "course_tests": "course_test",
     "compare": "compare flip",
@@ -46,6 +47,7 @@ FOLDERS = {
     "src/render": "render",
     "src/scene_file": "scene_file",
     "src/course_tests": "course_tests",
+    "src/check": "check",
     "src/compare": "compare",
     "src/cli": "cli",
     "src/math": "math",

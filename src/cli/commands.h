@@ -14,6 +14,7 @@ void replay_command(const Options& options);
 void rerun_command(const Options& options);
 int test_command(const Options& options);  // returns the exit code: 3 if a test failed
 int agree_command(const Options& options); // the same
+int check_command(const Options& options); // 3 if there are doubts
 int compare_command(
     const Options& options); // returns the exit code: 3 if they differ, 4 if that is not known
 

@@ -30,6 +30,7 @@ int run(const Options& options)
     case Verb::rerun: rerun_command(options); break;
     case Verb::test: return test_command(options);
     case Verb::agree: return agree_command(options);
+    case Verb::check: return check_command(options);
     case Verb::compare: return compare_command(options);
     }
     return 0;

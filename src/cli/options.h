@@ -12,7 +12,7 @@
 
 namespace plumb {
 
-enum class Verb { render, types, info, replay, rerun, test, compare, agree };
+enum class Verb { render, types, info, replay, rerun, test, compare, agree, check };
 
 // The command line makes no sense: main() prints the message and exits with 2.
 class UsageError : public std::runtime_error {

@@ -20,6 +20,8 @@ constexpr VerbRow rows[] = {
      "scene file", 1, 1, nullptr},
     {Verb::rerun, "rerun", "IMAGE -o IMAGE [options]", "render a picture again from its header", "image", 1,
      1, rerun_manual},
+    {Verb::check, "check", "SCENE [options]", "say what is doubtful, without rendering", "scene file", 1, 1,
+     check_manual},
     {Verb::compare, "compare", "A B [options]", "are two pictures the same but for noise?", "image", 2, 2,
      compare_manual},
     {Verb::agree, "agree", "SCENE [options]", "do the estimators agree on a scene?", "scene file", 1, 1,

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// What is doubtful about a scene that loads without an error.
+
+#include "plumb/render.h"
+
+#include <string>
+#include <vector>
+
+namespace plumb {
+
+// Something that is most likely not meant. object: as SceneObject::name has it; empty: the scene as a whole.
+struct Doubt {
+    std::string object;
+    std::string text;
+};
+
+// Looks for triangles without area; glass that is not closed, or whose front looks inwards; lamps that emit nothing,
+// that face a wall, or that are closed and shine inwards although the camera is outside; BSDFs that reflect more light
+// than they receive; a camera inside an object; a scene without light. In the order of the objects. Takes samples with
+// fixed seeds: the same scene has the same doubts.
+std::vector<Doubt> find_doubts(const RenderJob& job);
+
+} // namespace plumb

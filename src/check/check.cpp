@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+
+#include "plumb/check.h"
+
+#include "check/mesh_facts.h"
+#include "plumb/sampling.h"
+
+#include <fmt/format.h>
+
+namespace plumb {
+
+namespace {
+
+constexpr int samples = 256;
+
+bool transmits(const Bsdf& bsdf)
+{
+    return bsdf.lobes().has_any(transmission_lobes);
+}
+
+class Checker {
+public:
+    explicit Checker(const RenderJob& job)
+        : job_(job),
+          scene_(job.scene),
+          size_(length(job.scene.bounds().size())),
+          sampler_(job.sampler->clone())
+    {}
+
+    std::vector<Doubt> doubts()
+    {
+        const std::string bias = job_.integrator->bias();
+        if (scene_.emitters().empty() && !bias.starts_with("it shows"))
+            add({}, "there is no light: the picture will be black");
+        for (const SceneObject& object : scene_.objects()) check(object);
+        check_camera();
+        return std::move(doubts_);
+    }
+
+private:
+    void add(const std::string& object, std::string text) { doubts_.push_back({object, std::move(text)}); }
+
+    void check(const SceneObject& object)
+    {
+        const MeshFacts facts = mesh_facts(*object.shape);
+        if (facts.degenerate > 0)
+            add(object.name,
+                fmt::format("{} of its {} triangles have no area", facts.degenerate, facts.triangles));
+        if (transmits(*object.bsdf)) {
+            if (!facts.is_closed)
+                add(object.name, "light enters its material, but the surface is not closed");
+            else if (facts.volume < 0.0)
+                add(object.name, "its front looks inwards, so that its inside and outside are swapped");
+        }
+        if (object.emitter) check_lamp(object, facts);
+        check_energy(object);
+    }
+
+    void check_lamp(const SceneObject& object, const MeshFacts& facts)
+    {
+        if (!(object.emitter->power() > 0.f)) return add(object.name, "its emitter is black");
+        if (facts.is_closed && facts.volume < 0.0 &&
+            !object.shape->bounds().intersects(camera_ray(0.5f, 0.5f).origin))
+            return add(object.name, "it is closed and shines inwards only");
+        const std::optional<float> reach = reach_of(object);
+        constexpr float nothing = 1e-3f; // of the scene's size
+        if (reach && *reach < nothing * size_)
+            add(object.name, fmt::format("it faces a wall: its light gets no further than {:.3g}", *reach));
+    }
+
+    // How far the light of a lamp gets at most; nothing: out of the scene.
+    std::optional<float> reach_of(const SceneObject& lamp)
+    {
+        float reach = 0.f;
+        for (int i = 0; i < samples; ++i) {
+            sampler_->start(0, {0, 0}, static_cast<std::uint64_t>(i));
+            const double u_select = sampler_->next_choice();
+            const Vec2f u = sampler_->next_2d();
+            const Vec2f u_direction = sampler_->next_2d();
+            const ShapeSample point = lamp.shape->sample_area(u_select, u);
+            const Vec3f direction = Frame(point.normal).to_world(square_to_cosine_hemisphere(u_direction));
+            const Vec3f origin = offset_origin(point.position, point.error, point.normal, direction);
+            const auto hit = scene_.intersect({origin, direction});
+            if (!hit) return std::nullopt;
+            reach = std::max(reach, length(hit->position - origin));
+        }
+        return reach;
+    }
+
+    // The share of light that comes back: the mean weight of samples (undoing what refraction does to radiance).
+    void check_energy(const SceneObject& object)
+    {
+        constexpr double most = 1.02; // the noise of so many samples is far below
+        SurfacePoint at;
+        at.uv = Vec2f(0.5f);
+        for (const float cosine : {0.95f, 0.6f, 0.2f}) {
+            const Vec3f wi(std::sqrt(1.f - sqr(cosine)), 0.f, cosine);
+            double sum[3] = {0.0, 0.0, 0.0};
+            for (int i = 0; i < samples; ++i) {
+                sampler_->start(1, {0, 0}, static_cast<std::uint64_t>(i));
+                const float u_lobe = sampler_->next_1d();
+                const Vec2f u = sampler_->next_2d();
+                const auto sample = object.bsdf->sample(at, wi, u_lobe, u);
+                if (!sample) continue;
+                for (int c = 0; c < 3; ++c)
+                    sum[c] += static_cast<double>(sample->weight[c]) * sqr(static_cast<double>(sample->eta));
+            }
+            const double share = std::max({sum[0], sum[1], sum[2]}) / samples;
+            if (share > most)
+                return add(object.name,
+                           fmt::format("its BSDF gives back {:.3g} times the light that it receives", share));
+        }
+    }
+
+    // Through a place of the picture, from 0 to 1 across and down, and the middle of the lens.
+    Ray camera_ray(float across, float down) const
+    {
+        const Vec2i resolution = job_.camera->resolution();
+        const Vec2f raster(across * static_cast<float>(resolution.x),
+                           down * static_cast<float>(resolution.y));
+        return job_.camera->sample_ray(raster, Vec2f(0.5f)).ray;
+    }
+
+    // Inside, if all that it sees is one closed object from behind.
+    void check_camera()
+    {
+        const Shape* around = nullptr;
+        for (const Vec2f& place : {Vec2f(0.5f, 0.5f), Vec2f(0.01f, 0.01f), Vec2f(0.99f, 0.01f),
+                                   Vec2f(0.01f, 0.99f), Vec2f(0.99f, 0.99f)}) {
+            const Ray ray = camera_ray(place.x, place.y);
+            const auto hit = scene_.intersect(ray);
+            if (!hit || dot(hit->geometric_normal, ray.direction) <= 0.f) return;
+            if (around != nullptr && around != hit->shape) return;
+            around = hit->shape;
+        }
+        for (const SceneObject& object : scene_.objects()) {
+            if (object.shape.get() != around) continue;
+            const MeshFacts facts = mesh_facts(*object.shape);
+            if (facts.is_closed && facts.volume > 0.0) add(object.name, "the camera is inside it");
+        }
+    }
+
+    const RenderJob& job_;
+    const Scene& scene_;
+    float size_;
+    std::unique_ptr<Sampler> sampler_;
+    std::vector<Doubt> doubts_;
+};
+
+} // namespace
+
+std::vector<Doubt> find_doubts(const RenderJob& job)
+{
+    return Checker(job).doubts();
+}
+
+} // namespace plumb

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include "cli/commands.h"
+#include "cli/console.h"
+#include "cli/manuals.h"
+#include "cli/text.h"
+
+#include "plumb/check.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+namespace plumb {
+
+namespace {
+
+constexpr int doubtful = 3;
+constexpr double megabyte = 1e6;
+
+// What the scene has taken so far, and what film and picture will.
+std::string memory_text(const LoadedScene& scene)
+{
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    const double now = static_cast<double>(usage.ru_maxrss) * 1024.0; // Linux counts in kibibytes
+    const Vec2i size = scene.job.camera->resolution();
+    constexpr double picture_bytes = 7 * sizeof(float);
+    const double later = static_cast<double>(size.x) * static_cast<double>(size.y) *
+                         (static_cast<double>(film_bytes_per_pixel) + picture_bytes);
+    return fmt::format("memory: {:.0f} MB for the scene and the program, {:.0f} MB for film and picture",
+                       now / megabyte, later / megabyte);
+}
+
+} // namespace
+
+std::string_view check_manual()
+{
+    return "Says what is wrong or doubtful about a scene, without rendering it: all errors and warnings of\n"
+           "loading; triangles without area; glass that is not closed or turned inside out; lamps that are\n"
+           "black, face a wall or shine into themselves; BSDFs that give back more light than they receive; "
+           "a\n"
+           "camera inside an object; a scene without light. And how much memory rendering takes.\n"
+           "Exit code: 0 nothing, 1 errors, 2 wrong usage, 3 doubts.\n";
+}
+
+int check_command(const Options& options)
+{
+    const LoadedScene scene = load_and_log(options);
+    const std::vector<Doubt> doubts = find_doubts(scene.job);
+    for (const Doubt& doubt : doubts)
+        print_output(fmt::format("{}{}{}\n", doubt.object, doubt.object.empty() ? "" : ": ", doubt.text));
+    if (!options.quiet) {
+        print_output(memory_text(scene) + "\n");
+        print_output(doubts.empty() && scene.warnings.empty() ? "nothing is wrong or doubtful\n" : "");
+    }
+    return doubts.empty() && scene.warnings.empty() ? 0 : doubtful;
+}
+
+} // namespace plumb
