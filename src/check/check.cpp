@@ -43,9 +43,6 @@ private:
     void check(const SceneObject& object)
     {
         const MeshFacts facts = mesh_facts(*object.shape);
-        if (facts.degenerate > 0)
-            add(object.name,
-                fmt::format("{} of its {} triangles have no area", facts.degenerate, facts.triangles));
         if (transmits(*object.bsdf)) {
             if (!facts.is_closed)
                 add(object.name, "light enters its material, but the surface is not closed");

@@ -88,20 +88,16 @@ MeshFacts mesh_facts(const Shape& shape)
         facts.volume = 1.0;
         return facts;
     }
-    facts.triangles = description.triangles().size();
     facts.is_closed = is_closed(description);
-    for (std::uint32_t i = 0; i < facts.triangles; ++i) {
+    for (std::uint32_t i = 0; facts.is_closed && i < description.triangles().size(); ++i) {
         const AccelBuilder::Triangle& triangle = description.triangles()[i];
         const Vec3d normal = normal_of(description, triangle);
-        if (!(length(normal) > 0.0)) {
-            ++facts.degenerate;
-        } else if (facts.is_closed) {
-            // The divergence theorem, from a point near the surface.
-            const Vec3d from = Vec3d(description.corner(triangle, 0)) -
-                               Vec3d(description.corner(description.triangles()[0], 0));
-            const double side = dot(front_of(shape, description, i), normal) < 0.0 ? -1.0 : 1.0;
-            facts.volume += side * dot(from, normal) / 6.0;
-        }
+        if (!(length(normal) > 0.0)) continue;
+        // The divergence theorem, from a point of the surface.
+        const Vec3d from =
+            Vec3d(description.corner(triangle, 0)) - Vec3d(description.corner(description.triangles()[0], 0));
+        const double side = dot(front_of(shape, description, i), normal) < 0.0 ? -1.0 : 1.0;
+        facts.volume += side * dot(from, normal) / 6.0;
     }
     return facts;
 }

@@ -8,9 +8,8 @@
 namespace plumb {
 
 struct MeshFacts {
-    std::uint64_t triangles = 0;
-    std::uint64_t degenerate = 0; // without area
-    // Each edge has two triangles, wherever positions are the same bits. Spheres are closed.
+    // Each edge has two triangles, wherever positions are the same bits; triangles without area do not count. Spheres are
+    // closed.
     bool is_closed = false;
     // Of a closed surface, positive if its front looks outwards.
     double volume = 0.0;

@@ -35,10 +35,12 @@ std::string memory_text(const LoadedScene& scene)
 std::string_view check_manual()
 {
     return "Says what is wrong or doubtful about a scene, without rendering it: all errors and warnings of\n"
-           "loading; triangles without area; glass that is not closed or turned inside out; lamps that are\n"
-           "black, face a wall or shine into themselves; BSDFs that give back more light than they receive; "
-           "a\n"
-           "camera inside an object; a scene without light. And how much memory rendering takes.\n"
+           "loading (triangles without area, albedos above 1, images with numbers that are none, ...); "
+           "glass\n"
+           "that is not closed or turned inside out; lamps that are black, face a wall or shine into\n"
+           "themselves; BSDFs that give back more light than they receive; a camera inside an object; a "
+           "scene\n"
+           "without light. And how much memory rendering takes.\n"
            "Exit code: 0 nothing, 1 errors, 2 wrong usage, 3 doubts.\n";
 }
 

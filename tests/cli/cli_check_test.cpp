@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+
+// renderer check.
+
+#include "cli/small_scene.h"
+#include "support/catch.h"
+
+using namespace plumb;
+
+namespace {
+
+// The faces of the cube [-1, 1]^3 run counter-clockwise seen from outside, or from inside.
+std::string cube(bool inside_out)
+{
+    std::string obj;
+    for (const char* z : {"-1", "1"})
+        for (const char* corner : {"-1 -1 ", "1 -1 ", "1 1 ", "-1 1 "})
+            obj += std::string("v ") + corner + z + "\n";
+    for (const char* face : {"1 4 3 2", "5 6 7 8", "1 2 6 5", "2 3 7 6", "3 4 8 7", "4 1 5 8"}) {
+        const std::string corners = face;
+        const std::string reversed = {corners[6], ' ', corners[4], ' ', corners[2], ' ', corners[0]};
+        obj += "f " + (inside_out ? reversed : corners) + "\n";
+    }
+    return obj;
+}
+
+// With a sun, a camera at (0, 0, -5) that looks along z, and `more`.
+std::string scene(const std::string& more)
+{
+    return R"(<scene dialect="plumb"><integrator type="path_mis"/>
+  <camera type="perspective"><integer name="width" value="40"/><integer name="height" value="30"/>
+    <transform name="toWorld"><lookat origin="0,0,-5" target="0,0,0" up="0,1,0"/></transform></camera>
+)" + more + "\n</scene>\n";
+}
+
+const std::string sun =
+    R"(<emitter type="directional"><vector name="direction" value="0,-1,0"/><color name="radiance" value="1,1,1"/></emitter>)";
+
+std::string mesh(const std::string& inner)
+{
+    return R"(<mesh type="obj"><string name="filename" value="mesh.obj"/>)" + inner + "</mesh>";
+}
+
+const std::string glass = R"(<bsdf type="dielectric"/>)";
+const std::string lamp = R"(<emitter type="area"><color name="radiance" value="1,1,1"/></emitter>)";
+
+// What check prints of the scene, without the line about memory.
+std::string doubts(const std::string& more, const std::string& obj = cube(false))
+{
+    const TempFolder folder;
+    folder.write("a.xml", scene(more));
+    folder.write("mesh.obj", obj);
+    const RunResult run = run_renderer({"check", "a.xml"}, folder.path());
+    INFO(run.err);
+    const std::size_t memory = run.out.find("memory: ");
+    REQUIRE(memory != std::string::npos);
+    const std::string doubts = run.out.substr(0, memory);
+    CHECK(run.exit_code == (doubts.empty() ? 0 : 3));
+    CHECK((run.out.find("nothing is wrong or doubtful\n") != std::string::npos) == doubts.empty());
+    return doubts;
+}
+
+} // namespace
+
+TEST_CASE("a good scene leaves no doubt", "[cli][check]")
+{
+    CHECK(doubts(sun + mesh(glass)).empty());
+    CHECK(doubts(mesh(lamp)).empty());
+    CHECK(doubts(sun + R"(<shape type="sphere">)" + glass + "</shape>").empty());
+    const SceneFolder folder;
+    CHECK(folder.run({"check", "scene.xml", "--quiet"}).exit_code == 0);
+    CHECK(folder.files() == Names{"scene.xml"}); // nothing is rendered
+}
+
+TEST_CASE("glass that is open or turned inside out is doubtful", "[cli][check]")
+{
+    CHECK(doubts(sun + mesh(glass), cube(true)) ==
+          "mesh 'obj' (a.xml:4): its front looks inwards, so that its inside and outside are swapped\n");
+    const std::string open = cube(false).substr(0, cube(false).rfind("f "));
+    CHECK(doubts(sun + mesh(glass), open) ==
+          "mesh 'obj' (a.xml:4): light enters its material, but the surface is not closed\n");
+    CHECK(doubts(sun + mesh(""), open).empty()); // what is opaque may be open
+}
+
+TEST_CASE("lamps that light nothing are doubtful", "[cli][check]")
+{
+    CHECK(doubts(mesh(lamp), cube(true)) == "mesh 'obj' (a.xml:4): it is closed and shines inwards only\n");
+    CHECK_THAT(
+        doubts(sun + R"(<shape type="rectangle"><vector name="normal" value="0,1,0"/>
+        <point name="center" value="0,-0.0005,0"/>)" +
+               lamp + R"(</shape><shape type="rectangle">
+        <float name="width" value="9"/><float name="height" value="9"/><vector name="normal" value="0,-1,0"/></shape>)"),
+        ContainsSubstring("shape 'rectangle' (a.xml:4): it faces a wall: its light gets no further than "));
+    CHECK(
+        doubts(
+            sun +
+            R"(<shape type="sphere"><emitter type="area"><color name="radiance" value="0,0,0"/></emitter></shape>)") ==
+        "shape 'sphere' (a.xml:4): its emitter is black\n");
+    CHECK(doubts(mesh("")) == "there is no light: the picture will be black\n");
+}
+
+TEST_CASE("a camera inside a thing is doubtful, and so is a warning", "[cli][check]")
+{
+    CHECK(doubts(sun + R"(<shape type="sphere"><float name="radius" value="50"/></shape>)") ==
+          "shape 'sphere' (a.xml:4): the camera is inside it\n");
+
+    const SceneFolder folder;
+    folder.write("a.xml", scene(sun + mesh("")));
+    folder.write("mesh.obj", cube(false) + "f 1 2 2\n");
+    const RunResult run = folder.run({"check", "a.xml"});
+    CHECK(run.exit_code == 3);
+    CHECK_THAT(run.err, ContainsSubstring("warning: 1 triangle has no area and was left out"));
+}
+
+TEST_CASE("check tells errors as rendering does", "[cli][check]")
+{
+    const SceneFolder folder;
+    folder.write("bad.xml", scene(R"(<shape type="spere"/>)"));
+    const RunResult run = folder.run({"check", "bad.xml"});
+    CHECK(run.exit_code == 1);
+    CHECK_THAT(run.err,
+               ContainsSubstring("bad.xml:4:14: error: unknown shape 'spere'; did you mean 'sphere'?"));
+}
