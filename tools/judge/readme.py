@@ -17,9 +17,9 @@ their variances are scaled up so that their sum is that of the whole picture.
 
 ## Making them again
 
-    python3 -m venv /tmp/judge && /tmp/judge/bin/pip install mitsuba=={version} numpy
+    python3 -m venv ~/judge && ~/judge/bin/pip install mitsuba=={version} numpy
     export DRJIT_LIBLLVM_PATH=...        # libLLVM.so of LLVM 16 or newer
-    /tmp/judge/bin/python tools/judge/make.py [NAME...]
+    ~/judge/bin/python tools/judge/make.py [NAME...]
 
 Made with Mitsuba {version} ({variant}), NumPy {numpy}; {samples} samples per pixel of Mitsuba. All of them take about
 ten minutes on two cores. `--scenes-only` writes only the scene files, which needs no LLVM.
