@@ -4,9 +4,9 @@
 #include "cli/console.h"
 #include "cli/json.h"
 #include "cli/manuals.h"
+#include "cli/outputs.h"
 #include "cli/progress.h"
 #include "cli/text.h"
-#include "cli/text_file.h"
 
 #include "plumb/compare.h"
 
@@ -16,9 +16,6 @@
 namespace plumb {
 
 namespace {
-
-constexpr int differ = 3;
-constexpr int undecided = 4;
 
 // A picture of the scene by one estimator.
 struct Estimate {
@@ -158,7 +155,7 @@ std::string_view agree_manual()
 int agree_command(const Options& options)
 {
     check_request(options);
-    if (!options.json.empty() && options.json != "-") check_text_path(options.json);
+    check_outputs({}, options.json);
     const AgreeRequest& request = options.agree;
     const std::vector<std::string> samplers =
         request.samplers.empty() ? std::vector<std::string>{""} : request.samplers;
@@ -180,7 +177,6 @@ int agree_command(const Options& options)
                 {estimates[i], estimates[j], compare(estimates[i].image, estimates[j].image, how)});
 
     const CompareOutcome outcome = outcome_of(pairs);
-    const std::string json = options.json.empty() ? "" : agreement_json(options, estimates, pairs);
     if (!options.quiet && options.json != "-") {
         print_output(options.subject + "\n");
         for (const Estimate& estimate : estimates)
@@ -190,11 +186,8 @@ int agree_command(const Options& options)
         print_output(
             fmt::format("{}; what is wrong in all of them alike is beyond this test\n", verdict_of(outcome)));
     }
-    if (options.json == "-")
-        print_output(json);
-    else if (!options.json.empty())
-        write_text_file(options.json, json);
-    return outcome == CompareOutcome::passes ? 0 : outcome == CompareOutcome::differs ? differ : undecided;
+    if (!options.json.empty()) write_json(options.json, agreement_json(options, estimates, pairs));
+    return exit_code_of(outcome);
 }
 
 } // namespace plumb

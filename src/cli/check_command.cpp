@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cli/commands.h"
 #include "cli/console.h"
+#include "cli/exit_codes.h"
 #include "cli/manuals.h"
 #include "cli/text.h"
 
@@ -13,7 +14,6 @@ namespace plumb {
 
 namespace {
 
-constexpr int doubtful = 3;
 constexpr double megabyte = 1e6;
 
 // What the scene has taken so far, and what film and picture will.
@@ -48,13 +48,14 @@ int check_command(const Options& options)
 {
     const LoadedScene scene = load_and_log(options);
     const std::vector<Doubt> doubts = find_doubts(scene.job);
+    const bool is_clean = doubts.empty() && scene.warnings.empty();
     for (const Doubt& doubt : doubts)
         print_output(fmt::format("{}{}{}\n", doubt.object, doubt.object.empty() ? "" : ": ", doubt.text));
     if (!options.quiet) {
         print_output(memory_text(scene) + "\n");
-        print_output(doubts.empty() && scene.warnings.empty() ? "nothing is wrong or doubtful\n" : "");
+        if (is_clean) print_output("nothing is wrong or doubtful\n");
     }
-    return doubts.empty() && scene.warnings.empty() ? 0 : doubtful;
+    return is_clean ? exit_code::done : exit_code::differs;
 }
 
 } // namespace plumb

@@ -3,7 +3,7 @@
 #include "cli/comparison_text.h"
 #include "cli/console.h"
 #include "cli/manuals.h"
-#include "cli/text_file.h"
+#include "cli/outputs.h"
 
 #include "plumb/compare.h"
 #include "plumb/error.h"
@@ -13,9 +13,6 @@
 namespace plumb {
 
 namespace {
-
-constexpr int differs = 3;
-constexpr int undecided = 4;
 
 // Made for screens: no values above 1.
 bool is_low_dynamic_range(const std::filesystem::path& path)
@@ -32,13 +29,9 @@ void write_reports(const Options& options, const Comparison& comparison, const I
     if (!options.compare.difference.empty())
         write_image(options.compare.difference,
                     options.compare.difference_is_flip ? flip_image(comparison) : difference_image(a, b));
-    if (options.json.empty()) return;
-    const std::string json =
-        comparison_json(comparison, options.compare.how, options.subject, options.subjects[1]);
-    if (options.json == "-")
-        print_output(json);
-    else
-        write_text_file(options.json, json);
+    if (!options.json.empty())
+        write_json(options.json,
+                   comparison_json(comparison, options.compare.how, options.subject, options.subjects[1]));
 }
 
 } // namespace
@@ -51,8 +44,11 @@ std::string_view compare_manual()
 
 int compare_command(const Options& options)
 {
-    if (!options.compare.difference.empty()) check_image_path(options.compare.difference);
-    if (!options.json.empty() && options.json != "-") check_text_path(options.json);
+    std::vector<std::string> images;
+    if (!options.compare.difference.empty()) images.push_back(options.compare.difference);
+    check_outputs(images, options.json);
+    keep_inputs({options.subject, options.subjects[1]}, images, options.json,
+                "it is one of the pictures to compare");
     const Image a = read_image(options.subject, true);
     const Image b = read_image(options.subjects[1], true);
 
@@ -66,12 +62,7 @@ int compare_command(const Options& options)
     if (!options.quiet && options.json != "-")
         print_output("A " + options.subject + "\nB " + options.subjects[1] + "\n" +
                      comparison_text(comparison, how));
-    switch (comparison.outcome) {
-    case CompareOutcome::passes: return 0;
-    case CompareOutcome::differs: return differs;
-    case CompareOutcome::undecided: return undecided;
-    }
-    return undecided;
+    return exit_code_of(comparison.outcome);
 }
 
 } // namespace plumb

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "cli/comparison_text.h"
 
+#include "cli/exit_codes.h"
+
 #include <cmath>
 #include <fmt/format.h>
 
@@ -140,6 +142,16 @@ std::string comparison_text(const Comparison& comparison, const CompareOptions& 
         text += significance_text(comparison, options);
     text += threshold_text(comparison, options);
     return text + fmt::format("{}\n", outcome_word(comparison.outcome));
+}
+
+int exit_code_of(CompareOutcome outcome)
+{
+    switch (outcome) {
+    case CompareOutcome::passes: return exit_code::done;
+    case CompareOutcome::differs: return exit_code::differs;
+    case CompareOutcome::undecided: return exit_code::undecided;
+    }
+    return exit_code::undecided;
 }
 
 } // namespace plumb

@@ -14,5 +14,6 @@ std::string comparison_json(const Comparison& comparison, const CompareOptions& 
                             const std::string& b);
 
 std::string_view outcome_word(CompareOutcome outcome); // passes, differs, undecided
+int exit_code_of(CompareOutcome outcome);
 
 } // namespace plumb

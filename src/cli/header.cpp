@@ -41,14 +41,14 @@ std::string input_name(const std::filesystem::path& input, const std::filesystem
     return valid_utf8((inside ? from_scene : input.filename()).generic_string());
 }
 
-Metadata image_header(const Options& options, const LoadedScene& scene, const RenderResult& result)
+Metadata image_header(const Options& options, const LoadedScene& scene, const Report& report)
 {
     Metadata header;
     const auto add = [&](const char* name, MetadataValue value) {
         header.emplace_back(name, std::move(value));
     };
     add("Software", "Plumb " PLUMB_VERSION);
-    add("plumb:scene", options.scene.empty() ? scene_name(options) : options.scene);
+    add("plumb:scene", options.scene_name.empty() ? scene_name(options) : options.scene_name);
     if (!options.picture_words.empty()) add("plumb:arguments", valid_utf8(options.picture_words.substr(1)));
     std::string inputs;
     for (const InputFile& input : scene.inputs)
@@ -74,17 +74,17 @@ Metadata image_header(const Options& options, const LoadedScene& scene, const Re
     add("plumb:envmapScale", scene.dialect.environment_scale);
     add("plumb:instructionSet", scene.job.scene.options().instruction_set);
     add("plumb:embree", scene.job.scene.embree_version());
-    const Ledger ledger = make_ledger(scene.job, scene.dialect, result);
+    const Ledger& ledger = report.ledger;
     add("plumb:biased", ledger.biases.empty() ? 0 : 1);
     if (!ledger.biases.empty()) add("plumb:biases", list_text(ledger.biases));
     if (!ledger.model.empty()) add("plumb:model", list_text(ledger.model));
-    if (const auto noise = estimate_noise(result.film)) {
+    if (const auto& noise = report.noise) {
         add("plumb:rmse", static_cast<float>(noise->rmse));
         add("plumb:rmseInterval",
             std::vector<float>{static_cast<float>(noise->low), static_cast<float>(noise->high)});
     }
-    add("plumb:leftOut", std::to_string(result.left_out.count));
-    if (result.left_out.count > 0) add("plumb:leftOutFirst", left_out_text(result.left_out.first));
+    add("plumb:leftOut", std::to_string(report.left_out.count));
+    if (report.left_out.count > 0) add("plumb:leftOutFirst", left_out_text(report.left_out.first));
     add("worldToCamera", world_to_camera(*scene.job.camera));
     return header;
 }

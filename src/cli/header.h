@@ -31,12 +31,11 @@
 //     worldToCamera           as OpenEXR wants it: for row vectors, so that elements 12 to 14 are the translation.
 //                             In camera space +z looks forward, +y is up and +x is left.
 
-#include "cli/options.h"
-#include "plumb/evidence.h"
+#include "cli/report.h"
 
 namespace plumb {
 
-Metadata image_header(const Options& options, const LoadedScene& scene, const RenderResult& result);
+Metadata image_header(const Options& options, const LoadedScene& scene, const Report& report);
 
 // The path of an input as plumb:inputs has it.
 std::string input_name(const std::filesystem::path& input, const std::filesystem::path& scene_file);

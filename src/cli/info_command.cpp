@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cli/commands.h"
 #include "cli/console.h"
+#include "cli/exit_codes.h"
 #include "cli/text.h"
 
 #include "plumb/image.h"
@@ -53,7 +54,7 @@ void print_value(const std::string& name, const std::vector<float>& values)
 
 } // namespace
 
-void info_command(const Options& options)
+int info_command(const Options& options)
 {
     const Image image = read_image(options.subject, false);
     print_output(options.subject + "\n");
@@ -66,6 +67,7 @@ void info_command(const Options& options)
     print_value("channels", channels);
     for (const auto& [name, value] : image.metadata)
         std::visit([&, &key = name](const auto& v) { print_value(key, v); }, value);
+    return exit_code::done;
 }
 
 } // namespace plumb

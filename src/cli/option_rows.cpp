@@ -24,6 +24,8 @@ constexpr unsigned test_only = verb_bit(Verb::test);
 constexpr unsigned compare_only = verb_bit(Verb::compare);
 constexpr unsigned agree_only = verb_bit(Verb::agree);
 constexpr unsigned check_only = verb_bit(Verb::check);
+constexpr unsigned loads_scene = both | agree_only | check_only;
+constexpr unsigned loads = loads_scene | test_only; // with the options of load_scene()
 constexpr unsigned every_verb = ~0u;
 
 using Name = std::string_view;
@@ -85,7 +87,7 @@ const OptionRow rows[] = {
     {Topic::picture, both | test_only | agree_only, "--seed", "N",
      "of the random numbers, 64 bits (default 0)",
      [](Options& o, Name n, Text t) { o.render.seed = parse_integer(n, t, 0, UINT64_MAX); }},
-    {Topic::picture, both | agree_only | check_only, "--size", "WxH", "resolution (default: the scene's)",
+    {Topic::picture, loads_scene, "--size", "WxH", "resolution (default: the scene's)",
      [](Options& o, Name n, Text t) { o.load.resolution = parse_size(n, t); }},
     {Topic::picture, render_only, "--crop", "X,Y,W,H", "render this part only; same bits as in the whole",
      [](Options& o, Name n, Text t) { o.render.crop = parse_rectangle(n, t); }},
@@ -103,27 +105,24 @@ const OptionRow rows[] = {
     {Topic::picture, agree_only, "--time", "T", "about as long in all: 90, 90s, 10m or 2h; instead of --spp",
      [](Options& o, Name n, Text t) { o.agree.seconds = parse_duration(n, t); }},
 
-    {Topic::scene, both | test_only | agree_only | check_only, "-D,--define", "NAME=VALUE",
-     "value of $NAME in the scene file; may be repeated", define, true},
-    {Topic::scene, both | test_only | agree_only | check_only, "--dialect", "NAME",
-     "auto, plumb, epfl, eth, zaragoza or mcgill (default auto)",
+    {Topic::scene, loads, "-D,--define", "NAME=VALUE", "value of $NAME in the scene file; may be repeated",
+     define, true},
+    {Topic::scene, loads, "--dialect", "NAME", "auto, plumb, epfl, eth, zaragoza or mcgill (default auto)",
      [](Options& o, Name n, Text t) {
          o.load.dialect = dialect_from_string(parse_word(n, t, dialect_words()));
      }},
-    {Topic::scene, both | test_only | agree_only | check_only, "--emitters", "WHAT",
-     "scatter or absorb the light that meets them",
+    {Topic::scene, loads, "--emitters", "WHAT", "scatter or absorb the light that meets them",
      [](Options& o, Name n, Text t) {
          o.load.emitters_absorb = parse_word(n, t, {"scatter", "absorb"}) == "absorb";
      }},
-    {Topic::scene, both | agree_only | check_only, "--mirror", "on|off", "flop the picture left to right",
+    {Topic::scene, loads_scene, "--mirror", "on|off", "flop the picture left to right",
      [](Options& o, Name n, Text t) {
          o.load.mirrored_view = parse_word(n, t, {"on", "off"}) == "on";
      }},
-    {Topic::scene, both | test_only | agree_only | check_only, "--envmap-scale", "X",
-     "multiply environment images by X",
+    {Topic::scene, loads, "--envmap-scale", "X", "multiply environment images by X",
      [](Options& o, Name n, Text t) { o.load.environment_scale = parse_number(n, t, 0.f, 1e30f); }},
-    {Topic::scene, both | test_only | agree_only | check_only, "--lenient", "",
-     "unknown parameters are warnings, not errors", [](Options& o, Name, Text) { o.load.lenient = true; }},
+    {Topic::scene, loads, "--lenient", "", "unknown parameters are warnings, not errors",
+     [](Options& o, Name, Text) { o.load.lenient = true; }},
 
     {Topic::scene, rerun_only, "--scene", "FILE", "where the scene file lies now",
      [](Options& o, Name n, Text t) {
@@ -134,15 +133,14 @@ const OptionRow rows[] = {
     {Topic::running, rendering | test_only | agree_only, "-t,--threads", "N",
      "how many (default: all there are)",
      [](Options& o, Name n, Text t) { o.render.threads = static_cast<int>(parse_integer(n, t, 1, 1024)); }},
-    {Topic::running, both | test_only | agree_only | check_only, "--isa", "NAME",
-     "of Embree: sse2, sse4.2, avx, avx2 or avx512 (default avx2)",
+    {Topic::running, loads, "--isa", "NAME", "of Embree: sse2, sse4.2, avx, avx2 or avx512 (default avx2)",
      [](Options& o, Name n, Text t) {
          o.load.instruction_set = parse_word(n, t, {"sse2", "sse4.2", "avx", "avx2", "avx512"});
      }},
-    {Topic::running, both | rerun_only | test_only | compare_only | agree_only | check_only, "--quiet", "",
-     "print nothing but errors", [](Options& o, Name, Text) { o.quiet = true; }},
-    {Topic::running, both | rerun_only | agree_only | check_only, "--verbose", "",
-     "print facts about the scene", [](Options& o, Name, Text) { o.verbose = true; }},
+    {Topic::running, loads | rerun_only | compare_only, "--quiet", "", "print nothing but errors",
+     [](Options& o, Name, Text) { o.quiet = true; }},
+    {Topic::running, loads_scene | rerun_only, "--verbose", "", "print facts about the scene",
+     [](Options& o, Name, Text) { o.verbose = true; }},
 
     {Topic::path, replay_only, "--pixel", "X,Y", "the pixel, counted from the upper left corner",
      [](Options& o, Name n, Text t) { o.pixel = parse_pixel(n, t); }},

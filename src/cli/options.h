@@ -46,7 +46,8 @@ struct Options {
     std::vector<std::string> outputs; // none: <scene>_<spp>.exr and .png
     std::string json;                 // empty: no report; "-": standard output
     float exposure = 0.f;
-    bool variance = true; // .exr files also hold the error bars
+    std::string scene_name; // what the picture's header is to call the scene; empty: by its path
+    bool variance = true;   // .exr files also hold the error bars
     bool quiet = false;
     bool verbose = false;
     LoadOptions load;     // with samples_per_pixel, if given

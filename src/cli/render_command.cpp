@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "cli/commands.h"
 #include "cli/console.h"
+#include "cli/exit_codes.h"
 #include "cli/header.h"
+#include "cli/outputs.h"
 #include "cli/progress.h"
 #include "cli/report.h"
 #include "cli/text.h"
-#include "cli/text_file.h"
 
 #include <chrono>
 #include <fmt/format.h>
@@ -23,43 +24,11 @@ private:
     Clock::time_point start_ = Clock::now();
 };
 
-// The same for every name of a file; empty if there is none.
-std::filesystem::path identity(const std::filesystem::path& file)
+std::vector<std::filesystem::path> paths_of(const std::vector<InputFile>& inputs)
 {
-    std::error_code failed;
-    const auto path = std::filesystem::weakly_canonical(std::filesystem::absolute(file, failed), failed);
-    return failed ? std::filesystem::path() : path;
-}
-
-// Two names of one file that only the file system knows to be one are a usage error, too.
-void check_outputs(const std::vector<std::string>& outputs, const std::string& json)
-{
-    std::vector<std::string> files = outputs;
-    for (const std::string& output : outputs) check_image_path(output);
-    if (!json.empty() && json != "-") {
-        check_text_path(json);
-        files.push_back(json);
-    }
-    std::vector<std::filesystem::path> seen;
-    for (const std::string& file : files) {
-        const std::filesystem::path path = identity(file);
-        if (path.empty()) continue;
-        if (std::find(seen.begin(), seen.end(), path) != seen.end())
-            throw UsageError(fmt::format("'{}' is to be written twice", file));
-        seen.push_back(path);
-    }
-}
-
-// What the scene was read from is not overwritten.
-void keep_inputs(const std::vector<InputFile>& inputs, std::vector<std::string> outputs,
-                 const std::string& json)
-{
-    if (!json.empty() && json != "-") outputs.push_back(json);
-    for (const std::string& output : outputs)
-        for (const InputFile& input : inputs)
-            if (const auto path = identity(output); !path.empty() && path == identity(input.path))
-                throw Error(
-                    fmt::format("cannot write '{}': the scene reads this file; write to another", output));
+    std::vector<std::filesystem::path> paths;
+    for (const InputFile& input : inputs) paths.push_back(input.path);
+    return paths;
 }
 
 std::vector<std::string> default_outputs(const Options& options, const LoadedScene& scene)
@@ -83,15 +52,6 @@ void write_images(const std::vector<std::string>& outputs, const Image& image, f
     if (!problems.empty()) throw Error(list_text(problems));
 }
 
-void write_report(const Report& report, const std::string& file)
-{
-    if (file.empty()) return;
-    if (file == "-")
-        print_output(report_json(report));
-    else
-        write_text_file(file, report_json(report));
-}
-
 void log_summary(const Report& report, const Options& options, std::uint64_t samples)
 {
     print_log(fmt::format("{}: {} samples in {}, {}", list_text(report.outputs), count_text(samples),
@@ -111,10 +71,11 @@ void log_summary(const Report& report, const Options& options, std::uint64_t sam
 
 } // namespace
 
-void render_command(const Options& options)
+int render_command(const Options& options)
 {
     check_outputs(options.outputs, options.json);
     render_and_write(options, load_and_log(options));
+    return exit_code::done;
 }
 
 void render_and_write(const Options& options, const LoadedScene& scene)
@@ -124,7 +85,7 @@ void render_and_write(const Options& options, const LoadedScene& scene)
     const std::vector<std::string> outputs =
         default_names ? default_outputs(options, scene) : options.outputs;
     if (default_names) check_outputs(outputs, options.json);
-    keep_inputs(scene.inputs, outputs, options.json);
+    keep_inputs(paths_of(scene.inputs), outputs, options.json, "the scene reads this file; write to another");
 
     const RenderResult result = [&] {
         ProgressDisplay display(options.quiet);
@@ -133,15 +94,15 @@ void render_and_write(const Options& options, const LoadedScene& scene)
 
     const Stopwatch writing;
     Image image = result.film.develop(options.variance ? Channels::color_and_evidence : Channels::color);
-    image.metadata = image_header(options, scene, result);
-    write_images(outputs, image, options.exposure);
-
     Report report = make_report(options, scene, result);
     report.outputs = outputs;
+    image.metadata = image_header(options, scene, report);
+    write_images(outputs, image, options.exposure);
+
     report.write_seconds = writing.seconds();
     report.total_seconds = scene.parse_seconds + scene.build_seconds + since_loaded.seconds();
     note_machine(report);
-    write_report(report, options.json);
+    if (!options.json.empty()) write_json(options.json, report_json(report));
     const PixelRect& window = result.film.window();
     const std::uint64_t pixels =
         static_cast<std::uint64_t>(window.width) * static_cast<std::uint64_t>(window.height);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cli/commands.h"
 #include "cli/console.h"
+#include "cli/exit_codes.h"
 #include "cli/text.h"
 
 #include <fmt/format.h>
@@ -26,7 +27,7 @@ std::string_view kind_text(PathEvent::Kind kind)
 
 } // namespace
 
-void replay_command(const Options& options)
+int replay_command(const Options& options)
 {
     const LoadedScene scene = load_and_log(options);
     const Vec2i pixel = options.pixel;
@@ -39,6 +40,7 @@ void replay_command(const Options& options)
         print_output(fmt::format("{:<9} {}\n", kind_text(event.kind), event.text));
     print_output(fmt::format("\nvalue     {}\nweight    {}\nverdict   {}\n", color_text(sample.value),
                              sample.weight, verdict_text(sample.verdict)));
+    return exit_code::done;
 }
 
 } // namespace plumb

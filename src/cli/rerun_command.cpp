@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "cli/commands.h"
+#include "cli/exit_codes.h"
 #include "cli/header.h"
 #include "cli/manuals.h"
+#include "cli/outputs.h"
 #include "cli/text.h"
 
 #include <map>
@@ -61,7 +63,7 @@ Options options_of(const Recipe& recipe, const Options& run)
     std::vector<std::string> words = shell_split(recipe.arguments);
     words.insert(words.begin(), find_scene(run, recipe));
     Options options = parse_options(std::move(words));
-    options.scene = recipe.scene; // as the new header is to say
+    options.scene_name = recipe.scene;
     options.outputs = run.outputs;
     options.json = run.json;
     options.quiet = run.quiet;
@@ -112,19 +114,16 @@ std::string_view rerun_manual()
            "it, a mesh, an image or this program is not what it was, the error names it.\n";
 }
 
-void rerun_command(const Options& run)
+int rerun_command(const Options& run)
 {
     const Recipe recipe = read_recipe(run.subject);
-    std::error_code ignored;
-    for (const std::string& output : run.outputs) {
-        check_image_path(output);
-        if (std::filesystem::equivalent(output, run.subject, ignored))
-            throw Error(fmt::format("cannot write '{}': it is the picture to be rendered again", output));
-    }
+    keep_inputs({run.subject}, run.outputs, run.json, "it is the picture to be rendered again");
+    check_outputs(run.outputs, run.json);
     const Options options = options_of(recipe, run);
     const LoadedScene scene = load_and_log(options);
     check_inputs(scene, recipe, options);
     render_and_write(options, scene);
+    return exit_code::done;
 }
 
 } // namespace plumb

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "cli/commands.h"
 #include "cli/console.h"
+#include "cli/exit_codes.h"
 #include "cli/json.h"
+#include "cli/outputs.h"
 #include "cli/text.h"
-#include "cli/text_file.h"
 
 #include "plumb/course_test.h"
 
@@ -13,8 +14,6 @@
 namespace plumb {
 
 namespace {
-
-constexpr int test_failed = 3;
 
 // A file, and how its tests went.
 struct FileReport {
@@ -173,7 +172,7 @@ std::string report_json(const std::vector<FileReport>& reports, std::uint64_t se
 
 int test_command(const Options& options)
 {
-    if (!options.json.empty() && options.json != "-") check_text_path(options.json);
+    check_outputs({}, options.json);
     const Printer printer(options);
     std::vector<FileReport> reports = load_files(options);
     std::size_t passed = 0, total = 0;
@@ -192,11 +191,8 @@ int test_command(const Options& options)
     }
     if (reports.size() > 1)
         printer.print(fmt::format("All {} files: passed {}/{} tests.\n", reports.size(), passed, total));
-    if (options.json == "-")
-        print_output(report_json(reports, options.render.seed));
-    else if (!options.json.empty())
-        write_text_file(options.json, report_json(reports, options.render.seed));
-    return passed == total ? 0 : test_failed;
+    if (!options.json.empty()) write_json(options.json, report_json(reports, options.render.seed));
+    return passed == total ? exit_code::done : exit_code::differs;
 }
 
 } // namespace plumb

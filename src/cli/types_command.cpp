@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cli/commands.h"
 #include "cli/console.h"
+#include "cli/exit_codes.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -50,12 +51,13 @@ void print_manuals(const std::string& name)
 
 } // namespace
 
-void types_command(const Options& options)
+int types_command(const Options& options)
 {
     if (options.subject.empty())
         print_list();
     else
         print_manuals(options.subject);
+    return exit_code::done;
 }
 
 } // namespace plumb

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cli/verbs.h"
 
+#include "cli/commands.h"
 #include "cli/manuals.h"
 #include "cli/text.h"
 
@@ -13,21 +14,22 @@ namespace {
 constexpr std::size_t any_number = 100000;
 
 constexpr VerbRow rows[] = {
-    {Verb::render, "", "SCENE [-o IMAGE]... [options]", "render a picture", "scene file", 1, 1, nullptr},
-    {Verb::types, "types", "[NAME]", "list all plugins, or print one's manual", "name", 0, 1, nullptr},
-    {Verb::info, "info", "IMAGE", "print what an image's header says", "image", 1, 1, nullptr},
+    {Verb::render, "", "SCENE [-o IMAGE]... [options]", "render a picture", "scene file", 1, 1,
+     render_command},
+    {Verb::types, "types", "[NAME]", "list all plugins, or print one's manual", "name", 0, 1, types_command},
+    {Verb::info, "info", "IMAGE", "print what an image's header says", "image", 1, 1, info_command},
     {Verb::replay, "replay", "SCENE --pixel X,Y --sample I [options]", "print the path of one sample",
-     "scene file", 1, 1, nullptr},
+     "scene file", 1, 1, replay_command},
     {Verb::rerun, "rerun", "IMAGE -o IMAGE [options]", "render a picture again from its header", "image", 1,
-     1, rerun_manual},
+     1, rerun_command, rerun_manual},
     {Verb::check, "check", "SCENE [options]", "say what is doubtful, without rendering", "scene file", 1, 1,
-     check_manual},
+     check_command, check_manual},
     {Verb::compare, "compare", "A B [options]", "are two pictures the same but for noise?", "image", 2, 2,
-     compare_manual},
+     compare_command, compare_manual},
     {Verb::agree, "agree", "SCENE [options]", "do the estimators agree on a scene?", "scene file", 1, 1,
-     agree_manual},
+     agree_command, agree_manual},
     {Verb::test, "test", "FILE... [options]", "run a course's statistical tests", "test file", 1, any_number,
-     test_manual},
+     test_command, test_manual},
 };
 
 } // namespace

@@ -17,7 +17,8 @@ struct VerbRow {
     std::string_view subject;   // what its words are, for messages: "scene file"
     std::size_t min_subjects;
     std::size_t max_subjects;
-    std::string_view (*manual)(); // what its own --help prints below the usage; may be null
+    int (*run)(const Options&);
+    std::string_view (*manual)() = nullptr; // what its own --help prints below the usage
 
     std::string command() const; // "renderer rerun IMAGE -o IMAGE [options]"
 };

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#include "cli/outputs.h"
+
+#include "cli/console.h"
+#include "cli/options.h"
+#include "cli/text_file.h"
+
+#include "plumb/error.h"
+#include "plumb/image.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace plumb {
+
+namespace {
+
+// The same for every name of a file; empty if there is none.
+std::filesystem::path identity(const std::filesystem::path& file)
+{
+    std::error_code failed;
+    const auto path = std::filesystem::weakly_canonical(std::filesystem::absolute(file, failed), failed);
+    return failed ? std::filesystem::path() : path;
+}
+
+bool is_file(const std::string& json)
+{
+    return !json.empty() && json != "-";
+}
+
+std::vector<std::string> all_files(std::vector<std::string> images, const std::string& json)
+{
+    if (is_file(json)) images.push_back(json);
+    return images;
+}
+
+} // namespace
+
+void check_outputs(const std::vector<std::string>& images, const std::string& json)
+{
+    for (const std::string& image : images) check_image_path(image);
+    if (is_file(json)) check_text_path(json);
+    std::vector<std::filesystem::path> seen;
+    for (const std::string& file : all_files(images, json)) {
+        const std::filesystem::path path = identity(file);
+        if (path.empty()) continue;
+        if (std::find(seen.begin(), seen.end(), path) != seen.end())
+            throw UsageError(fmt::format("'{}' is to be written twice", file));
+        seen.push_back(path);
+    }
+}
+
+void keep_inputs(const std::vector<std::filesystem::path>& inputs, const std::vector<std::string>& images,
+                 const std::string& json, std::string_view reason)
+{
+    for (const std::string& file : all_files(images, json))
+        for (const std::filesystem::path& input : inputs)
+            if (const auto path = identity(file); !path.empty() && path == identity(input))
+                throw Error(fmt::format("cannot write '{}': {}", file, reason));
+}
+
+void write_json(const std::string& json, std::string_view text)
+{
+    if (json == "-")
+        print_output(text);
+    else if (is_file(json))
+        write_text_file(json, text);
+}
+
+} // namespace plumb
