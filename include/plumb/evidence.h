@@ -36,6 +36,6 @@ struct Ledger {
     std::vector<std::string> model;
 };
 
-Ledger make_ledger(const RenderJob& job, const Dialect& dialect, const RenderResult& result);
+Ledger make_ledger(const RenderJob& job, const Dialect& dialect, const RenderState& result);
 
 } // namespace plumb

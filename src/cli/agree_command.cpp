@@ -54,7 +54,7 @@ Estimate estimate(const Options& options, const std::string& integrator, const s
     how.samples_per_pixel =
         seconds > 0.0 ? samples_in(seconds, scene.job, how) : scene.job.sampler->samples_per_pixel();
     ProgressDisplay display(options.quiet);
-    const RenderResult result =
+    const RenderState result =
         render(scene.job, how, [&](const Progress& progress) { display.show(progress); });
 
     Estimate made{sampler.empty() ? integrator : integrator + " with " + sampler, how.samples_per_pixel,

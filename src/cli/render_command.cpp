@@ -87,7 +87,7 @@ void render_and_write(const Options& options, const LoadedScene& scene)
     if (default_names) check_outputs(outputs, options.json);
     keep_inputs(paths_of(scene.inputs), outputs, options.json, "the scene reads this file; write to another");
 
-    const RenderResult result = [&] {
+    const RenderState result = [&] {
         ProgressDisplay display(options.quiet);
         return render(scene.job, options.render, [&](const Progress& progress) { display.show(progress); });
     }();

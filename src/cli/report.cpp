@@ -102,7 +102,7 @@ void write_evidence(JsonWriter& json, const Report& report)
 
 } // namespace
 
-Report make_report(const Options& options, const LoadedScene& scene, const RenderResult& result)
+Report make_report(const Options& options, const LoadedScene& scene, const RenderState& result)
 {
     Report report;
     report.scene = options.subject;
@@ -122,7 +122,7 @@ Report make_report(const Options& options, const LoadedScene& scene, const Rende
     report.left_out = result.left_out;
     report.ledger = make_ledger(scene.job, scene.dialect, result);
     report.noise = estimate_noise(result.film);
-    report.threads = result.threads;
+    report.threads = render_threads(options.render);
     report.instruction_set = scene.job.scene.options().instruction_set;
     report.embree_version = scene.job.scene.embree_version();
     return report;

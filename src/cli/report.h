@@ -38,7 +38,7 @@ struct Report {
 };
 
 // All but outputs, times of writing and in total, and what note_machine() fills in.
-Report make_report(const Options& options, const LoadedScene& scene, const RenderResult& result);
+Report make_report(const Options& options, const LoadedScene& scene, const RenderState& result);
 void note_machine(Report& report); // peak memory, host and time, now
 
 std::string report_json(const Report& report);

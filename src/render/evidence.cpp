@@ -31,7 +31,7 @@ std::optional<NoiseEstimate> estimate_noise(const Film& film)
                          std::sqrt(squared_error + margin)};
 }
 
-Ledger make_ledger(const RenderJob& job, const Dialect& dialect, const RenderResult& result)
+Ledger make_ledger(const RenderJob& job, const Dialect& dialect, const RenderState& result)
 {
     Ledger ledger;
     if (std::string bias = job.integrator->bias(); !bias.empty()) ledger.biases.push_back(std::move(bias));

@@ -113,7 +113,7 @@ public:
             RenderOptions options;
             options.samples_per_pixel = samples_per_pixel;
             options.seed = seed * 1000 + i;
-            const RenderResult result = render(job, options);
+            const RenderState result = render(job, options);
             left_out_ += result.left_out.count;
             pictures_.push_back(result.film.develop());
         }
