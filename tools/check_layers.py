@@ -23,7 +23,7 @@ HEADERS = {
             "statistics version",
     "interfaces": "bsdf camera emitter filter integrator params sampler shape surface texture",
     "scene": "scene tracer",
-    "render": "evidence film render sample_set state_file",
+    "render": "evidence film render sample_set state_file stop_rules",
     "check": "check",
     "scene_file": "load scene_file test_file",
     "course_tests": "course_test",

@@ -22,9 +22,6 @@
 
 namespace plumb {
 
-// Names of a header that begin so are those of the state, and none of the picture's.
-inline constexpr std::string_view state_prefix = "plumb:state";
-
 // What the file will hold. Throws Error, with the reason, if memory is short.
 std::vector<unsigned char> encode_state(const RenderState& state, Vec2i resolution, const Metadata& header);
 

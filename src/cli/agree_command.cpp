@@ -137,7 +137,7 @@ void check_request(const Options& options)
     const AgreeRequest& request = options.agree;
     if (request.integrators.size() * std::max<std::size_t>(request.samplers.size(), 1) < 2)
         throw UsageError("agree needs two estimators or more; name them with --integrators");
-    if (request.seconds > 0.0 && options.load.samples_per_pixel)
+    if (options.stop.seconds && options.load.samples_per_pixel)
         throw UsageError("--time and --spp exclude each other");
 }
 
@@ -159,8 +159,8 @@ int agree_command(const Options& options)
     const AgreeRequest& request = options.agree;
     const std::vector<std::string> samplers =
         request.samplers.empty() ? std::vector<std::string>{""} : request.samplers;
-    const double seconds_each =
-        request.seconds / static_cast<double>(request.integrators.size() * samplers.size());
+    const double seconds_each = options.stop.seconds.value_or(0.0) /
+                                static_cast<double>(request.integrators.size() * samplers.size());
 
     std::vector<Estimate> estimates;
     for (const std::string& integrator : request.integrators)

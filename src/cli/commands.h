@@ -13,13 +13,14 @@ int types_command(const Options& options);
 int info_command(const Options& options);
 int replay_command(const Options& options);
 int rerun_command(const Options& options);
+int merge_command(const Options& options);
 int check_command(const Options& options);
 int compare_command(const Options& options);
 int agree_command(const Options& options);
 int test_command(const Options& options);
 
-// Renders a loaded scene, and writes pictures and report.
-void render_and_write(const Options& options, const LoadedScene& scene);
+// Renders a loaded scene, and writes pictures, checkpoint and report.
+int render_and_write(const Options& options, const LoadedScene& scene);
 
 // Loads the scene that the options name, and logs its dialect and its warnings unless --quiet.
 LoadedScene load_and_log(const Options& options);

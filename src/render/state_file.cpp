@@ -36,12 +36,13 @@ std::vector<std::string> word_names(bool with_large)
     return names;
 }
 
-// The header as one text, in an order that no file changes.
+// The header as one text, in an order that no file changes. Without empty values, which no file keeps.
 std::string text_of(const Metadata& header)
 {
     const std::map<std::string, MetadataValue> sorted(header.begin(), header.end());
     std::string text;
     for (const auto& [name, value] : sorted) {
+        if (value == MetadataValue(std::string())) continue;
         text += name + "=";
         if (const int* const integer = std::get_if<int>(&value))
             text += fmt::format("{}", *integer);
@@ -182,7 +183,7 @@ StateFile empty_state(const WordImage& image)
     const auto samples = SampleSet::from_text(entries.get<std::string>("plumb:stateSamples"));
     if (!samples) throw Error("plumb:stateSamples in its header makes no sense");
     StateFile file{{Film(image.data, image.full_width, image.full_height), *samples, {}, {}},
-                   without(header, state_prefix),
+                   without(header, "plumb:state"),
                    {image.full_width, image.full_height}};
     std::istringstream rays(entries.get<std::string>("plumb:stateRays"));
     rays >> file.state.rays.camera >> file.state.rays.bounce >> file.state.rays.shadow;

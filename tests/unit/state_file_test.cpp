@@ -22,6 +22,7 @@ constexpr PixelRect window{3, 5, 30, 280};
 
 const Metadata header = {{"Software", std::string("Plumb 1.2.3")},
                          {"plumb:inputs", std::string("00 a.xml\n01 b.obj")},
+                         {"plumb:nothing", std::string()},
                          {"plumb:samplesPerPixel", 8},
                          {"plumb:envmapScale", 0.1f},
                          {"worldToCamera", std::vector<float>(16, 0.3f)}};
@@ -98,8 +99,9 @@ TEST_CASE("a rendering comes back from disk bit for bit", "[unit][state_file]")
     CHECK(first.index == 7);
     CHECK(first.verdict == Verdict::negative);
     CHECK(read.resolution == resolution);
-    CHECK(std::map<std::string, MetadataValue>(read.header.begin(), read.header.end()) ==
-          std::map<std::string, MetadataValue>(header.begin(), header.end()));
+    std::map<std::string, MetadataValue> expected(header.begin(), header.end());
+    expected.erase("plumb:nothing"); // files keep no empty values
+    CHECK(std::map<std::string, MetadataValue>(read.header.begin(), read.header.end()) == expected);
 
     // It is a picture, too.
     const Image seen = read_image(path, false);
