@@ -126,7 +126,7 @@ public:
     // The variance of a block's mean is that among the replicates: nothing about its pixels is assumed.
     Uncertain block(const PixelRect& block, std::size_t channel) const
     {
-        test::MeanAndVariance mean;
+        MeanAndVariance mean;
         for (const Image& picture : pictures_) {
             double sum = 0.0;
             for (int y = block.y; y < block.y + block.height; ++y)
