@@ -9,16 +9,6 @@
 
 namespace plumb {
 
-// The .xml files of a folder, sorted.
-inline std::vector<std::filesystem::path> xml_files(const std::filesystem::path& folder)
-{
-    std::vector<std::filesystem::path> files;
-    for (const auto& entry : std::filesystem::directory_iterator(folder))
-        if (entry.path().extension() == ".xml") files.push_back(entry.path());
-    std::sort(files.begin(), files.end());
-    return files;
-}
-
 // What load(path) complains of, with paths relative to the file's folder.
 template <class Load>
 std::string complaints(const std::filesystem::path& path, const Load& load)
