@@ -72,6 +72,9 @@ std::string pair_text(const Pair& pair)
         found.p);
     if (pair.comparison.outcome == CompareOutcome::undecided && !found.reason.empty())
         text += fmt::format(" ({})", found.reason);
+    if (pair.comparison.outcome == CompareOutcome::passes && found.differing + found.untested > 0)
+        text += fmt::format(" ({} of {} pixels differ, {} are undecided)", found.differing, found.pixels,
+                            found.untested);
     if (found.detectable_bias)
         text += fmt::format("; a bias of {:.3g} % would have been found with 90 % probability",
                             *found.detectable_bias * 100.0);

@@ -88,6 +88,10 @@ TEST_CASE("an estimator that rarely finds the lamp is named", "[cli][agree]")
     CHECK_THAT(read_bytes(folder / "a.json"),
                ContainsSubstring("\"reason\": \"432 of 432 pixels lie in no "));
     CHECK(folder.run({"agree", "small.xml", "--integrators", "path_nee,path_mis"}).exit_code == 0);
+
+    const RunResult tolerant = folder.run({"agree", "small.xml", "--fail-percent", "100"});
+    CHECK(tolerant.exit_code == 0);
+    CHECK_THAT(tolerant.out, ContainsSubstring(" (0 of 432 pixels differ, 432 are undecided)\n"));
 }
 
 TEST_CASE("agree takes a time instead of a number of samples", "[cli][agree]")
