@@ -19,8 +19,8 @@ LAYERS = ["math", "core", "interfaces", "plugins", "scene", "integrators", "rend
 # include/plumb/NAME.h, and src/**/NAME.cpp beside it, belong to a layer by name.
 HEADERS = {
     "math": "math color elementary frame ray transform",
-    "core": "dialect distribution error fixed_point fresnel hash image intersection mesh microfacet sampling "
-            "statistics version",
+    "core": "dialect distribution error fixed_point fresnel hash image intersection mean_and_variance mesh microfacet "
+            "sampling statistics version",
     "interfaces": "bsdf camera emitter filter integrator params sampler shape surface texture",
     "scene": "scene tracer",
     "render": "evidence film render sample_set state_file stop_rules",

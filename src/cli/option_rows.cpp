@@ -50,15 +50,13 @@ void define(Options& options, Name name, Text text)
 // "rmse=0.01,flip=0.05", added to the limits there are.
 void add_limits(Options& options, Name name, Text text)
 {
-    for (std::size_t start = 0; start <= text.size();) {
-        const std::size_t end = std::min(text.find(',', start), text.size());
-        const auto [metric, value] = parse_definition(name, text.substr(start, end - start));
+    for (const std::string& part : parse_list(name, text)) {
+        const auto [metric, value] = parse_definition(name, part);
         parse_word(name, metric, {"mse", "rmse", "relmse", "mae", "max", "psnr", "flip"});
         const double limit = parse_double(fmt::format("{} {}", name, metric), value, -1e30, 1e30);
         for (const Threshold& other : options.compare.how.thresholds)
             if (other.metric == metric) throw UsageError(fmt::format("{} {} is given twice", name, metric));
         options.compare.how.thresholds.push_back({metric, limit});
-        start = end + 1;
     }
 }
 
@@ -188,7 +186,8 @@ const OptionRow rows[] = {
      }},
     {Topic::verdict, compare_only, "--no-verdict", "", "ignore the noise: the limits of --max decide",
      [](Options& o, Name, Text) { o.compare.how.verdict = false; }},
-    {Topic::verdict, compare_only, "--fail-percent", "P", "of the pixels may differ (default 0)",
+    {Topic::verdict, compare_only | agree_only, "--fail-percent", "P",
+     "of the pixels may differ or stay undecided (default 0)",
      [](Options& o, Name n, Text t) { o.compare.how.fail_percent = parse_double(n, t, 0.0, 100.0); }},
     {Topic::verdict, compare_only, "--max", "METRIC=X,...",
      "fail above these: mse, rmse, relmse, mae, max, flip; or below: psnr", add_limits, true},

@@ -2,7 +2,12 @@
 
 // Writing pictures.
 
+<<<<<<< HEAD
 #include "io/image_spec.h"
+=======
+#include "core/lower_case.h"
+#include "io/image_quiet.h"
+>>>>>>> refs/heads/mend
 #include "io/image_text.h"
 #include "io/temporary_file.h"
 #include "plumb/error.h"
@@ -43,9 +48,7 @@ constexpr Format formats[] = {
 
 const Format& format_of(const std::filesystem::path& path)
 {
-    std::string extension = path.extension().string();
-    for (char& c : extension)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    const std::string extension = lower_case(path.extension().string());
     std::string known;
     for (const Format& format : formats) {
         if (format.extension == extension) return format;

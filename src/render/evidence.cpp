@@ -2,6 +2,8 @@
 
 #include "plumb/evidence.h"
 
+#include "plumb/statistics.h"
+
 #include <fmt/format.h>
 
 namespace plumb {
@@ -25,8 +27,7 @@ std::optional<NoiseEstimate> estimate_noise(const Film& film)
     }
     const double squared_error = sum / pixels;
     const double spread = std::max(sum_of_squares / pixels - sqr(squared_error), 0.0);
-    constexpr double normal_quantile = 1.959963984540054; // of 0.975
-    const double margin = normal_quantile * std::sqrt(spread / pixels);
+    const double margin = normal_quantile_95 * std::sqrt(spread / pixels);
     return NoiseEstimate{std::sqrt(squared_error), std::sqrt(std::max(squared_error - margin, 0.0)),
                          std::sqrt(squared_error + margin)};
 }

@@ -111,7 +111,7 @@ TEST_CASE("a scene of another scale gives the same picture", "[statistical][scen
         const RenderState result = render(loaded.job, {});
         CHECK(result.left_out.count == 0);
         const Image image = result.film.develop();
-        test::MeanAndVariance mean;
+        MeanAndVariance mean;
         for (int y = 0; y < 24; ++y)
             for (int x = 0; x < 32; ++x) mean.add(luminance(image.color(x, y)));
         return mean.mean();
