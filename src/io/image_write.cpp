@@ -2,12 +2,8 @@
 
 // Writing pictures.
 
-<<<<<<< HEAD
-#include "io/image_spec.h"
-=======
 #include "core/lower_case.h"
-#include "io/image_quiet.h"
->>>>>>> refs/heads/mend
+#include "io/image_spec.h"
 #include "io/image_text.h"
 #include "io/temporary_file.h"
 #include "plumb/error.h"
