@@ -5,6 +5,7 @@
 // what is wrong with the input.
 
 #include "cli/options.h"
+#include "cli/report.h"
 
 namespace plumb {
 
@@ -17,9 +18,13 @@ int check_command(const Options& options);
 int compare_command(const Options& options);
 int agree_command(const Options& options);
 int test_command(const Options& options);
+int batch_command(const Options& options);
 
-// Renders a loaded scene, and writes pictures and report.
-void render_and_write(const Options& options, const LoadedScene& scene);
+// Renders a loaded scene, writes pictures and report, and returns the report.
+Report render_and_write(const Options& options, const LoadedScene& scene);
+
+// Says unless --quiet what render_and_write() did.
+void log_rendering(const Options& options, const Report& report);
 
 // Loads the scene that the options name, and logs its dialect and its warnings unless --quiet.
 LoadedScene load_and_log(const Options& options);

@@ -12,7 +12,7 @@
 
 namespace plumb {
 
-enum class Verb { render, types, info, replay, rerun, test, compare, agree, check };
+enum class Verb { render, types, info, replay, rerun, test, compare, agree, check, batch };
 
 // The command line makes no sense: main() prints the message and exits with 2.
 class UsageError : public std::runtime_error {
@@ -33,6 +33,15 @@ struct AgreeRequest {
     std::vector<std::string> integrators = {"path", "path_nee", "path_mis"};
     std::vector<std::string> samplers; // none: the scene's
     double seconds = 0.0; // for all pictures together; 0: as many samples as the scene or --spp says
+};
+
+// What `renderer batch` does with a suite.
+struct BatchRequest {
+    std::string folder; // for pictures and reports; empty: batch/<suite>
+    std::string filter; // empty: all entries
+    bool fail_fast = false;
+    bool update = false; // make the references instead
+    bool force = false;  // also what is up to date
 };
 
 struct Options {
@@ -56,6 +65,7 @@ struct Options {
     std::uint64_t sample = 0;
     CompareRequest compare;
     AgreeRequest agree;
+    BatchRequest batch;
 
     // The words that change the scene or the seed, quoted for a shell: " --seed 7 --define 'a=b c'"; and those that
     // change a picture's file.

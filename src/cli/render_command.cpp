@@ -52,33 +52,16 @@ void write_images(const std::vector<std::string>& outputs, const Image& image, f
     if (!problems.empty()) throw Error(list_text(problems));
 }
 
-void log_summary(const Report& report, const Options& options, std::uint64_t samples)
-{
-    print_log(fmt::format("{}: {} samples in {}, {}", list_text(report.outputs), count_text(samples),
-                          duration_text(report.render_seconds),
-                          rate_text(report.rays.total(), report.render_seconds)));
-    if (report.noise)
-        print_log(fmt::format("noise: rmse {:.3g} (95 % interval {:.3g} to {:.3g})", report.noise->rmse,
-                              report.noise->low, report.noise->high));
-    if (!report.ledger.biases.empty()) print_log(fmt::format("biased: {}", list_text(report.ledger.biases)));
-    if (report.left_out.count == 0) return;
-    const LeftOut::Sample& first = report.left_out.first;
-    print_log(fmt::format("warning: {} samples were left out, the first is {}; to see its path:\n"
-                          "    renderer replay {} --pixel {},{} --sample {}{}",
-                          report.left_out.count, left_out_text(first), shell_quote(options.subject),
-                          first.pixel.x, first.pixel.y, first.index, options.scene_words));
-}
-
 } // namespace
 
 int render_command(const Options& options)
 {
     check_outputs(options.outputs, options.json);
-    render_and_write(options, load_and_log(options));
+    log_rendering(options, render_and_write(options, load_and_log(options)));
     return exit_code::done;
 }
 
-void render_and_write(const Options& options, const LoadedScene& scene)
+Report render_and_write(const Options& options, const LoadedScene& scene)
 {
     const Stopwatch since_loaded;
     const bool default_names = options.outputs.empty();
@@ -103,10 +86,28 @@ void render_and_write(const Options& options, const LoadedScene& scene)
     report.total_seconds = scene.parse_seconds + scene.build_seconds + since_loaded.seconds();
     note_machine(report);
     if (!options.json.empty()) write_json(options.json, report_json(report));
-    const PixelRect& window = result.film.window();
-    const std::uint64_t pixels =
-        static_cast<std::uint64_t>(window.width) * static_cast<std::uint64_t>(window.height);
-    if (!options.quiet) log_summary(report, options, pixels * report.samples_per_pixel);
+    return report;
+}
+
+void log_rendering(const Options& options, const Report& report)
+{
+    if (options.quiet) return;
+    const Vec2i size = report.crop ? Vec2i(report.crop->width, report.crop->height) : report.resolution;
+    const std::uint64_t samples =
+        static_cast<std::uint64_t>(size.x) * static_cast<std::uint64_t>(size.y) * report.samples_per_pixel;
+    print_log(fmt::format("{}: {} samples in {}, {}", list_text(report.outputs), count_text(samples),
+                          duration_text(report.render_seconds),
+                          rate_text(report.rays.total(), report.render_seconds)));
+    if (report.noise)
+        print_log(fmt::format("noise: rmse {:.3g} (95 % interval {:.3g} to {:.3g})", report.noise->rmse,
+                              report.noise->low, report.noise->high));
+    if (!report.ledger.biases.empty()) print_log(fmt::format("biased: {}", list_text(report.ledger.biases)));
+    if (report.left_out.count == 0) return;
+    const LeftOut::Sample& first = report.left_out.first;
+    print_log(fmt::format("warning: {} samples were left out, the first is {}; to see its path:\n"
+                          "    renderer replay {} --pixel {},{} --sample {}{}",
+                          report.left_out.count, left_out_text(first), shell_quote(options.subject),
+                          first.pixel.x, first.pixel.y, first.index, options.scene_words));
 }
 
 } // namespace plumb

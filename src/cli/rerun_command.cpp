@@ -122,7 +122,7 @@ int rerun_command(const Options& run)
     const Options options = options_of(recipe, run);
     const LoadedScene scene = load_and_log(options);
     check_inputs(scene, recipe, options);
-    render_and_write(options, scene);
+    log_rendering(options, render_and_write(options, scene));
     return exit_code::done;
 }
 
