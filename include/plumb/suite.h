@@ -10,7 +10,7 @@
 //         </group>
 //     </suite>
 //
-// Settings are options of the command line by their names. <default>, <include> and $name are the scene language's.
+// Settings are options of the command line by their names; an empty one is as if it were not there. <default>, <include> and $name are the scene language's.
 
 #include "plumb/error.h"
 

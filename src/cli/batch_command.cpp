@@ -3,7 +3,6 @@
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "cli/exit_codes.h"
-#include "cli/manuals.h"
 #include "cli/text_file.h"
 
 #include <algorithm>
@@ -144,57 +143,6 @@ int batch_command(const Options& options)
     if (!options.quiet)
         print_output(fmt::format("{}; reports: {}\n", summary_text(run), (folder / "report.html").string()));
     return run.exit_code();
-}
-
-std::string_view batch_manual()
-{
-    static const std::string text = [] {
-        std::string manual =
-            "Renders every picture that a suite lists, and compares it with its reference if it has one.\n"
-            "\n"
-            "    <suite size=\"160x120\">\n"
-            "        <render scene=\"cbox.xml\" spp=\"16, 64\" reference=\"ref/cbox.exr\" "
-            "reference-spp=\"1024\"/>\n"
-            "        <group name=\"hw4\" max=\"rmse=0.01\" seed=\"7\">\n"
-            "            <render scene=\"box.xml\" name=\"explicit\" reference=\"ref/*.exr\">\n"
-            "                <define name=\"explicit\" value=\"true\"/>\n"
-            "            </render>\n"
-            "        </group>\n"
-            "    </suite>\n"
-            "\n"
-            "Pictures are called after scene (or name), and sample count: cbox_16.exr, cbox_64.exr, "
-            "cbox_16.png,\n"
-            "hw4/explicit_32.exr. An attribute of <suite> or <group> holds for all that is in it. Files lie "
-            "beside\n"
-            "the suite; scene=\"box/*.xml\" takes all that match. In a reference, * is the name of the "
-            "picture. The\n"
-            "first entry that names a reference makes it with --update, with reference-spp and "
-            "reference-seed if\n"
-            "they are given. <default>, <include> and $name are the scene language's, <define> is a -D for "
-            "the\n"
-            "scene. The other attributes are options of `renderer` and `renderer compare`; those without a "
-            "value\n"
-            "take true or false:\n";
-        std::string line = "   ";
-        for (const std::string_view name : suite_settings()) {
-            if (line.size() + name.size() > 95) {
-                manual += line + "\n";
-                line = "   ";
-            }
-            line += " " + std::string(name);
-        }
-        return manual + line +
-               "\n"
-               "\n"
-               "The folder also gets report.html, report.json, junit.xml and summary.md. What is up to date "
-               "- scene,\n"
-               "options, program and picture are the same by their hashes - is compared, but not rendered "
-               "again.\n"
-               "Exit code: 0 all passes, 1 a picture could not be rendered or compared, 2 wrong usage, 3 one "
-               "differs,\n"
-               "4 one is undecided; the first of 1, 3 and 4 that is true.\n";
-    }();
-    return text;
 }
 
 } // namespace plumb

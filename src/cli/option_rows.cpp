@@ -233,9 +233,11 @@ std::string help_text(Verb verb)
         text = fmt::format("usage: {}\n", asked.command());
         if (asked.manual) text += asked.manual();
     }
+    const OptionRow* last = nullptr;
     for (const OptionRow& row : rows) {
         if (!row.goes_with(verb)) continue;
-        if (&row == rows || row.topic != (&row - 1)->topic) text += "\n";
+        if (!last || row.topic != last->topic) text += "\n";
+        last = &row;
         std::string names = row.names;
         names = names.starts_with("--") ? "    " + names : names.replace(2, 1, ", ");
         std::string_view help = row.help;

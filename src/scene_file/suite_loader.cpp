@@ -203,6 +203,16 @@ private:
         return false;
     }
 
+    // An empty value takes away what was inherited.
+    static void set(std::map<std::string, SuiteSetting>& settings, const std::string& name,
+                    SuiteSetting setting)
+    {
+        if (setting.value.empty())
+            settings.erase(name);
+        else
+            settings[name] = std::move(setting);
+    }
+
     // own: names that only this tag has.
     void read_attributes(const Element& element, Inherited& inherited, std::vector<std::string_view> own)
     {
@@ -216,10 +226,10 @@ private:
                 if (!setting.value.empty()) setting.value = (element.file->folder() / setting.value).string();
                 inherited.reference = std::move(setting);
             } else if (is_in(reference_names, attribute.name)) {
-                inherited.reference_settings[attribute.name.substr(reference_prefix.size())] =
-                    std::move(setting);
+                set(inherited.reference_settings, attribute.name.substr(reference_prefix.size()),
+                    std::move(setting));
             } else if (is_in(settings_, attribute.name)) {
-                inherited.settings[attribute.name] = std::move(setting);
+                set(inherited.settings, attribute.name, std::move(setting));
             } else {
                 own.insert(own.end(), std::begin(reference_names), std::end(reference_names));
                 own.insert(own.end(), settings_.begin(), settings_.end());

@@ -48,6 +48,7 @@ std::string outcome(const BatchResult& result)
 {
     const std::string message = xml_text(reason_text(result));
     switch (result.verdict) {
+    case BatchVerdict::made:
     case BatchVerdict::passes:
     case BatchVerdict::rendered: return {};
     case BatchVerdict::not_run: return fmt::format("      <skipped message=\"{}\"/>\n", message);

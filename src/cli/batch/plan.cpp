@@ -110,8 +110,12 @@ std::vector<BatchJob> plan_batch(const std::string& suite,
     Diagnostics diagnostics;
     std::vector<BatchJob> jobs;
     for (SuiteEntry& entry : loaded.entries) jobs.push_back(make_job(std::move(entry), diagnostics));
-    if (diagnostics.has_errors()) throw SceneError(diagnostics.all());
-    return jobs;
+    if (!diagnostics.has_errors()) return jobs;
+    std::vector<Diagnostic> errors = diagnostics.all();
+    std::stable_sort(errors.begin(), errors.end(), [](const Diagnostic& a, const Diagnostic& b) {
+        return std::pair(a.location.line, a.location.column) < std::pair(b.location.line, b.location.column);
+    });
+    throw SceneError(std::move(errors));
 }
 
 } // namespace plumb

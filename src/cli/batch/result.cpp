@@ -6,14 +6,26 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace plumb {
 
 namespace {
 
-constexpr BatchVerdict all_verdicts[] = {BatchVerdict::passes,  BatchVerdict::rendered,
-                                         BatchVerdict::differs, BatchVerdict::undecided,
-                                         BatchVerdict::error,   BatchVerdict::not_run};
+constexpr BatchVerdict all_verdicts[] = {
+    BatchVerdict::made,      BatchVerdict::passes, BatchVerdict::rendered, BatchVerdict::differs,
+    BatchVerdict::undecided, BatchVerdict::error,  BatchVerdict::not_run};
+
+// "3 pass" where verdict_word() says "passes".
+std::string_view plural_of(BatchVerdict verdict)
+{
+    switch (verdict) {
+    case BatchVerdict::passes: return "pass";
+    case BatchVerdict::differs: return "differ";
+    case BatchVerdict::error: return "errors";
+    default: return verdict_word(verdict);
+    }
+}
 
 } // namespace
 
@@ -36,6 +48,7 @@ std::string_view verdict_word(BatchVerdict verdict)
 {
     switch (verdict) {
     case BatchVerdict::not_run: return "not run";
+    case BatchVerdict::made: return "made";
     case BatchVerdict::rendered: return "rendered";
     case BatchVerdict::passes: return "passes";
     case BatchVerdict::undecided: return "undecided";
@@ -57,7 +70,11 @@ std::string reason_text(const BatchResult& result)
         reasons.push_back(fmt::format("{} {:.4g} is {} {:.4g}", limit.metric,
                                       metric_value(comparison.metrics, limit.metric),
                                       limit.metric == "psnr" ? "below" : "above", limit.limit));
-    if (noise.finding == Finding::different)
+    const NonFinite& broken = comparison.non_finite;
+    if (broken.only_a + broken.only_b > 0)
+        reasons.push_back(fmt::format("{} pixels are not finite in one of the pictures, the first is {},{}",
+                                      broken.only_a + broken.only_b, broken.first->x, broken.first->y));
+    if (noise.finding == Finding::different && noise.p < result.how.significance)
         reasons.push_back(fmt::format("it differs beyond the noise: p {:.2g}, {:.3g} % of the pixels",
                                       noise.p,
                                       100.0 * static_cast<double>(noise.differing) /
@@ -68,14 +85,12 @@ std::string reason_text(const BatchResult& result)
 
 std::string summary_text(const BatchRun& run)
 {
-    std::string text;
-    for (const BatchVerdict verdict : all_verdicts) {
-        const std::size_t count = run.count(verdict);
-        if (count == 0) continue;
-        const bool plural_error = verdict == BatchVerdict::error && count > 1;
-        text += fmt::format("{}{} {}{}", text.empty() ? "" : ", ", count, verdict_word(verdict),
-                            plural_error ? "s" : "");
-    }
+    std::vector<std::string> parts;
+    for (const BatchVerdict verdict : all_verdicts)
+        if (const std::size_t count = run.count(verdict); count > 0)
+            parts.push_back(
+                fmt::format("{} {}", count, count == 1 ? verdict_word(verdict) : plural_of(verdict)));
+    std::string text = fmt::format("{}", fmt::join(parts, ", "));
     const auto up_to_date = std::count_if(run.results.begin(), run.results.end(),
                                           [](const BatchResult& result) { return result.up_to_date; });
     if (up_to_date > 0) text += fmt::format("; {} up to date", up_to_date);

@@ -12,7 +12,8 @@ namespace plumb {
 // In the order of getting worse, but for not_run.
 enum class BatchVerdict {
     not_run,  // after --fail-fast
-    rendered, // there is no reference
+    made,     // a reference
+    rendered, // there is nothing to compare it with
     passes,
     undecided, // never agreement
     differs,

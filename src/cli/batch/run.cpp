@@ -199,7 +199,7 @@ BatchResult make_reference(const BatchJob& job, const Options& run, const std::v
         const Report report = render_and_write(options, scene);
         if (report.noise) result.noise = report.noise->rmse;
         result.left_out = report.left_out.count;
-        result.verdict = BatchVerdict::rendered;
+        result.verdict = BatchVerdict::made;
     });
     return result;
 }
