@@ -43,9 +43,10 @@ std::string picture_key(const Options& options, const LoadedScene& scene)
 {
     Hash128 hash;
     for (const std::string& part :
-         {std::string(PLUMB_VERSION), hash_of_program(), scene.input_hash, options.picture_words,
-          std::to_string(scene.job.sampler->samples_per_pixel()), std::to_string(options.render.seed),
-          scene.job.scene.options().instruction_set, scene.job.scene.embree_version()})
+         {std::string(PLUMB_VERSION), hash_of_program(), options.subject, scene.input_hash,
+          options.picture_words, std::to_string(scene.job.sampler->samples_per_pixel()),
+          std::to_string(options.render.seed), scene.job.scene.options().instruction_set,
+          scene.job.scene.embree_version()})
         hash.update(fmt::format("{}:{}", part.size(), part));
     return hash.hex();
 }
