@@ -29,6 +29,10 @@ struct NoiseEstimate {
 // Nothing if a pixel has fewer than 2 samples.
 std::optional<NoiseEstimate> estimate_noise(const Film& film);
 
+// The same, divided by the mean of the picture's values over its pixels and channels: 0.01 is noise of one percent of the
+// mean brightness. Nothing for a black picture either.
+std::optional<NoiseEstimate> estimate_relative_noise(const Film& film);
+
 // What an image's expectation differs in from all the light that the scene's model sends to the camera, and what the
 // model itself is where there was a choice. Phrases for people.
 struct Ledger {
@@ -36,6 +40,23 @@ struct Ledger {
     std::vector<std::string> model;
 };
 
-Ledger make_ledger(const RenderJob& job, const Dialect& dialect, const RenderResult& result);
+// What is known of it before the first sample.
+Ledger make_ledger(const RenderJob& job, const Dialect& dialect);
+
+// All that a picture can tell about itself.
+struct Evidence {
+    Ledger ledger;
+    std::optional<NoiseEstimate> noise;
+    LeftOut left_out;
+    std::uint64_t samples_per_pixel = 0; // the smallest number that a pixel has
+    SampleSet taken;
+    bool even = true; // every pixel has the samples from 0 to before that number, and no others
+    std::string stop; // what ended the rendering, if not the number of samples
+};
+// A stop that knew nothing of the samples, and so biases nothing.
+inline constexpr std::string_view interruption = "it was interrupted";
+
+// before: make_ledger(). stop: a phrase for the ledger; empty if all samples that were asked for were taken.
+Evidence make_evidence(Ledger before, const RenderState& state, const std::string& stop = {});
 
 } // namespace plumb

@@ -16,6 +16,7 @@
 #include "plumb/image.h"
 #include "plumb/sampler.h"
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -56,6 +57,20 @@ public:
 
     // Mean of the accepted samples; black where there is none.
     Image develop(Channels channels = Channels::color) const;
+
+    // Adds what another film of the same window has: the film of all the samples of both, bit for bit.
+    Film& operator+=(const Film& other);
+
+    // All that is known of a pixel, as 32-bit words, for files: sums and sums of squares of red, green and blue in units of
+    // 2^-64, the lowest word first, then sample_count and contributing_count. And the sums of the large squares of red,
+    // green and blue in units of 2^-20, which are 0 for most pixels of most films.
+    using Words = std::array<std::uint32_t, 26>;
+    using LargeWords = std::array<std::uint32_t, 12>;
+    Words words(Vec2i pixel) const;
+    void set_words(Vec2i pixel, const Words& words);
+    bool has_large_squares() const;
+    LargeWords large_words(Vec2i pixel) const;
+    void set_large_words(Vec2i pixel, const LargeWords& words);
 
 private:
     __extension__ typedef __int128 Sum;

@@ -28,6 +28,9 @@ public:
     // How the expectation of radiance() differs from the light that arrives, by the integrator's nature or its
     // parameters: "light of more than 5 surface bounces is left out". Empty where it does not.
     virtual std::string bias() const = 0;
+
+    // Whether a scene without lamps is black.
+    virtual bool needs_lamps() const { return true; }
 };
 
 } // namespace plumb

@@ -7,6 +7,7 @@
 #include "plumb/film.h"
 #include "plumb/filter.h"
 #include "plumb/integrator.h"
+#include "plumb/sample_set.h"
 #include "plumb/sampler.h"
 #include "plumb/tracer.h"
 
@@ -48,26 +49,61 @@ struct LeftOut {
     LeftOut& operator+=(const LeftOut& other);
 };
 
+// What has been rendered so far: enough to make the picture of, and to go on from.
+struct RenderState {
+    Film film;
+    SampleSet taken; // those left out included
+    RayCounts rays;
+    LeftOut left_out;
+    double seconds = 0.0; // of rendering
+
+    // Adds the work of another; of the same job, seed and window, and with none of its samples.
+    RenderState& operator+=(const RenderState& other);
+};
+
 struct Progress {
     std::uint64_t samples_done = 0;
     std::uint64_t samples_total = 0;
-    std::uint64_t rays = 0;
+    std::uint64_t samples_before = 0; // of those done, before `seconds` began
+    std::uint64_t rays = 0;           // in `seconds`
     double seconds = 0.0;
 };
 // Called from one thread at a time, between tiles.
 using ProgressReport = std::function<void(const Progress&)>;
+// Asked from all threads, for each row of a tile: whether to stop soon.
+using Pause = std::function<bool()>;
 
-struct RenderResult {
-    Film film;
-    RayCounts rays;
-    LeftOut left_out;
-    double seconds = 0.0;
-    int threads = 0;
+// The pixels that the options want of the job's picture, and how many samples of each. They throw Error for a crop outside
+// the picture and for too many samples.
+PixelRect render_window(const RenderJob& job, const RenderOptions& options);
+std::uint64_t render_samples(const RenderJob& job, const RenderOptions& options);
+int render_threads(const RenderOptions& options);
+
+// A picture in the making. What a set of samples gives depends on job, seed and the set, and on nothing else: not on
+// threads, tiles, crop, or the order and the calls in which they are taken.
+class Rendering {
+public:
+    // The job must outlive it. Throws what render_window() throws, and Error if memory is short.
+    Rendering(const RenderJob& job, const RenderOptions& options);
+    // Goes on from a state of the same job, seed and window.
+    Rendering(const RenderJob& job, const RenderOptions& options, RenderState state);
+    Rendering(const Rendering&) = delete;
+    Rendering& operator=(const Rendering&) = delete;
+
+    // Takes what has not been taken of the wanted samples, until pause says so. Whether all of them are taken now.
+    bool take(const SampleSet& wanted, const ProgressReport& progress = {}, const Pause& pause = {});
+
+    const RenderState& state() const { return state_; }
+    RenderState finish() && { return std::move(state_); }
+
+private:
+    const RenderJob& job_;
+    const RenderOptions options_;
+    RenderState state_;
 };
 
-// The picture depends on job, seed, samples_per_pixel and nothing else: not on threads, tiles or crop.
-// Throws Error for options that make no sense (a crop outside the picture, too many samples) or too little memory.
-RenderResult render(const RenderJob& job, const RenderOptions& options, const ProgressReport& progress = {});
+// All samples that the options ask for.
+RenderState render(const RenderJob& job, const RenderOptions& options, const ProgressReport& progress = {});
 
 // One sample of one pixel, exactly as render() takes it: its value, its filter weight and, in `log`, its path.
 struct ReplayedSample {

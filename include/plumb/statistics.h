@@ -24,39 +24,10 @@ double normal_survival(double z);
 double student_t_two_sided(double t, double degrees_of_freedom); // chance of a larger |t|
 double student_t_quantile(double p, double degrees_of_freedom);  // the t >= 0 of which that is p; 0 < p <= 1
 
+// The normal distribution has 95 % between this and its opposite.
+inline constexpr double normal_quantile_95 = 1.959963984540054;
+
 // The level of each of `tests` independent tests that together fail by chance with probability `level` (Sidak 1967).
 double sidak_level(double level, std::size_t tests);
-
-// Mean and variance of a stream of numbers (Welford 1962), and of two streams together (Chan, Golub and LeVeque 1983).
-class MeanAndVariance {
-public:
-    void add(double x)
-    {
-        ++count_;
-        const double delta = x - mean_;
-        mean_ += delta / static_cast<double>(count_);
-        sum_of_squares_ += delta * (x - mean_);
-    }
-
-    void add(const MeanAndVariance& other)
-    {
-        if (other.count_ == 0) return;
-        const auto both = static_cast<double>(count_ + other.count_);
-        const double share = static_cast<double>(other.count_) / both;
-        const double delta = other.mean_ - mean_;
-        sum_of_squares_ += other.sum_of_squares_ + delta * delta * share * static_cast<double>(count_);
-        mean_ += delta * share;
-        count_ += other.count_;
-    }
-
-    std::uint64_t count() const { return count_; }
-    double mean() const { return mean_; }
-    double variance() const { return count_ > 1 ? sum_of_squares_ / static_cast<double>(count_ - 1) : 0.0; }
-
-private:
-    std::uint64_t count_ = 0;
-    double mean_ = 0.0;
-    double sum_of_squares_ = 0.0; // of the distances from the mean
-};
 
 } // namespace plumb

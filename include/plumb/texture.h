@@ -11,7 +11,7 @@ namespace plumb {
 class Texture {
 public:
     virtual ~Texture() = default;
-    Color color(const Vec2f& uv) const { return uniform_ ? value_ : color_at(uv); }
+    Color color(const Vec2f& uv) const { return uniform_ ? everywhere_ : color_at(uv); }
 
     // Scalar parameters (a roughness, say) read the luminance.
     float scalar(const Vec2f& uv) const { return luminance(color(uv)); }
@@ -24,27 +24,26 @@ public:
 
 protected:
     Texture() = default;
-    explicit Texture(const Color& everywhere) : uniform_(true), value_(everywhere) {}
+    explicit Texture(const Color& everywhere) : uniform_(true), everywhere_(everywhere) {}
+    const Color& everywhere() const { return everywhere_; } // of a uniform texture
 
 private:
     // Most textures are a single colour: those are read without a call.
     virtual Color color_at(const Vec2f& uv) const = 0;
 
     bool uniform_ = false;
-    Color value_;
+    Color everywhere_;
 };
 
 class UniformTexture : public Texture {
 public:
-    explicit UniformTexture(const Color& color) : Texture(color), color_(color) {}
-    Color mean() const override { return color_; }
-    float min_value() const override { return min_component(color_); }
-    float max_value() const override { return max_component(color_); }
+    explicit UniformTexture(const Color& color) : Texture(color) {}
+    Color mean() const override { return everywhere(); }
+    float min_value() const override { return min_component(everywhere()); }
+    float max_value() const override { return max_component(everywhere()); }
 
 private:
-    Color color_at(const Vec2f&) const override { return color_; }
-
-    Color color_;
+    Color color_at(const Vec2f&) const override { return everywhere(); }
 };
 
 } // namespace plumb

@@ -5,6 +5,7 @@
 #include "check/mesh_facts.h"
 #include "plumb/sampling.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace plumb {
@@ -29,10 +30,10 @@ public:
 
     std::vector<Doubt> doubts()
     {
-        const std::string bias = job_.integrator->bias();
-        if (scene_.emitters().empty() && !bias.starts_with("it shows"))
+        if (scene_.emitters().empty() && job_.integrator->needs_lamps())
             add({}, "there is no light: the picture will be black");
-        for (const SceneObject& object : scene_.objects()) check(object);
+        find_facts();
+        for (std::size_t i = 0; i < facts_.size(); ++i) check(scene_.objects()[i], facts_[i]);
         check_camera();
         return std::move(doubts_);
     }
@@ -40,17 +41,47 @@ public:
 private:
     void add(const std::string& object, std::string text) { doubts_.push_back({object, std::move(text)}); }
 
-    void check(const SceneObject& object)
+    // Of the objects for which it matters where inside and outside are.
+    void find_facts()
     {
-        const MeshFacts facts = mesh_facts(*object.shape);
-        if (transmits(*object.bsdf)) {
-            if (!facts.is_closed)
-                add(object.name, "light enters its material, but the surface is not closed");
-            else if (facts.volume < 0.0)
-                add(object.name, "its front looks inwards, so that its inside and outside are swapped");
+        for (const SceneObject& object : scene_.objects()) {
+            const bool has_sides = transmits(*object.bsdf) || object.emitter;
+            facts_.push_back(has_sides ? mesh_facts(*object.shape) : MeshFacts());
+            if (!transmits(*object.bsdf)) continue;
+            const std::vector<Edge>& edges = facts_.back().open_edges;
+            borders_.insert(borders_.end(), edges.begin(), edges.end());
         }
+        std::sort(borders_.begin(), borders_.end());
+    }
+
+    // Surfaces between several media, of glass and of the water in it, close a space together: where one ends, so
+    // does another.
+    bool is_border_of_another(const Edge& edge) const
+    {
+        const auto [first, last] = std::equal_range(borders_.begin(), borders_.end(), edge);
+        return last - first > 1;
+    }
+
+    bool closes_with_others(const MeshFacts& facts) const
+    {
+        return !facts.open_edges.empty() &&
+               std::all_of(facts.open_edges.begin(), facts.open_edges.end(),
+                           [this](const Edge& edge) { return is_border_of_another(edge); });
+    }
+
+    void check(const SceneObject& object, const MeshFacts& facts)
+    {
+        if (transmits(*object.bsdf)) check_inside(object, facts);
         if (object.emitter) check_lamp(object, facts);
         check_energy(object);
+    }
+
+    void check_inside(const SceneObject& object, const MeshFacts& facts)
+    {
+        if (facts.is_closed && facts.volume < 0.0)
+            add(object.name, "its front looks inwards, so that its inside and outside are swapped");
+        else if (!facts.is_closed && !closes_with_others(facts))
+            add(object.name, "light enters its material, but the surface is not closed");
     }
 
     void check_lamp(const SceneObject& object, const MeshFacts& facts)
@@ -141,6 +172,8 @@ private:
     const Scene& scene_;
     float size_;
     std::unique_ptr<Sampler> sampler_;
+    std::vector<MeshFacts> facts_; // for each object
+    std::vector<Edge> borders_;    // open edges of every object that light enters, sorted
     std::vector<Doubt> doubts_;
 };
 

@@ -2,23 +2,13 @@
 
 #include "check/mesh_facts.h"
 
-#include <bit>
-#include <map>
-#include <unordered_map>
+#include "shapes/triangle.h"
+
+#include <algorithm>
 
 namespace plumb {
 
 namespace {
-
-struct PositionHash {
-    std::size_t operator()(const Vec3f& p) const
-    {
-        std::uint64_t hash = 0;
-        for (const float x : {p.x, p.y, p.z})
-            hash = (hash ^ std::bit_cast<std::uint32_t>(x + 0.f)) * 0x9E3779B97F4A7C15u; // -0 becomes 0
-        return static_cast<std::size_t>(hash ^ hash >> 32);
-    }
-};
 
 // A shape as it describes itself to the acceleration structure.
 class Description final : public AccelBuilder {
@@ -31,8 +21,12 @@ public:
     void add_sphere(const Vec3f&, float) override { has_sphere_ = true; }
 
     bool has_sphere() const { return has_sphere_; }
-    std::span<const Triangle> triangles() const { return triangles_; }
-    const Vec3f& corner(const Triangle& triangle, std::size_t i) const { return positions_[triangle[i]]; }
+    std::size_t size() const { return triangles_.size(); }
+    TriangleCorners triangle(std::size_t i) const
+    {
+        const Triangle& corners = triangles_[i];
+        return {positions_[corners[0]], positions_[corners[1]], positions_[corners[2]]};
+    }
 
 private:
     std::span<const Vec3f> positions_;
@@ -40,40 +34,61 @@ private:
     bool has_sphere_ = false;
 };
 
-Vec3d normal_of(const Description& shape, const AccelBuilder::Triangle& triangle)
+Edge edge_between(const Vec3f& a, const Vec3f& b)
 {
-    const Vec3d corner(shape.corner(triangle, 0));
-    return cross(Vec3d(shape.corner(triangle, 1)) - corner, Vec3d(shape.corner(triangle, 2)) - corner);
+    const auto from_to = [](const Vec3f& p, const Vec3f& q) { // -0 becomes 0
+        return Edge{p.x + 0.f, p.y + 0.f, p.z + 0.f, q.x + 0.f, q.y + 0.f, q.z + 0.f};
+    };
+    return std::min(from_to(a, b), from_to(b, a));
 }
 
-// Each edge has exactly two triangles. Those without area have no edges.
-bool is_closed(const Description& shape)
+// Of every triangle that has an area, sorted.
+std::vector<Edge> edges_of(const Description& shape)
 {
-    std::unordered_map<Vec3f, std::uint32_t, PositionHash> vertices;
-    std::map<std::pair<std::uint32_t, std::uint32_t>, int> triangles_at;
-    for (const AccelBuilder::Triangle& triangle : shape.triangles()) {
-        if (!(length(normal_of(shape, triangle)) > 0.0)) continue;
-        std::uint32_t index[3];
-        for (std::size_t i = 0; i < 3; ++i)
-            index[i] =
-                vertices.emplace(shape.corner(triangle, i), static_cast<std::uint32_t>(vertices.size()))
-                    .first->second;
-        for (std::size_t i = 0; i < 3; ++i) ++triangles_at[std::minmax(index[i], index[(i + 1) % 3])];
+    std::vector<Edge> edges;
+    edges.reserve(3 * shape.size());
+    for (std::size_t i = 0; i < shape.size(); ++i) {
+        const TriangleCorners t = shape.triangle(i);
+        if (!(length(triangle_cross(t)) > 0.0)) continue;
+        edges.insert(edges.end(),
+                     {edge_between(t.p0, t.p1), edge_between(t.p1, t.p2), edge_between(t.p2, t.p0)});
     }
-    return !triangles_at.empty() && std::all_of(triangles_at.begin(), triangles_at.end(),
-                                                [](const auto& edge) { return edge.second == 2; });
+    std::sort(edges.begin(), edges.end());
+    return edges;
+}
+
+std::vector<Edge> open_among(const std::vector<Edge>& edges)
+{
+    std::vector<Edge> open;
+    for (auto first = edges.begin(); first != edges.end();) {
+        const auto last = std::upper_bound(first, edges.end(), *first);
+        if (last - first != 2) open.push_back(*first);
+        first = last;
+    }
+    return open;
 }
 
 // The front of a triangle, asked of the shape where a ray meets its middle.
-Vec3d front_of(const Shape& shape, const Description& description, std::uint32_t primitive)
+Vec3d front_of(const Shape& shape, const TriangleCorners& triangle, std::uint32_t primitive)
 {
-    const AccelBuilder::Triangle& triangle = description.triangles()[primitive];
-    const Vec3d normal = normalize(normal_of(description, triangle));
-    const Vec3d middle = (Vec3d(description.corner(triangle, 0)) + Vec3d(description.corner(triangle, 1)) +
-                          Vec3d(description.corner(triangle, 2))) /
-                         3.0;
-    const Ray ray{Vec3f(middle + normal), Vec3f(-normal)};
+    const Vec3f normal(normalize(triangle_cross(triangle)));
+    const Ray ray{triangle_point(triangle, {1.0 / 3.0, 1.0 / 3.0}) + normal, -normal};
     return Vec3d(shape.surface_at(ray, primitive).geometric_normal);
+}
+
+// By the divergence theorem, from a point of the surface.
+double volume_of(const Shape& shape, const Description& description)
+{
+    double volume = 0.0;
+    const Vec3d from(description.triangle(0).p0);
+    for (std::uint32_t i = 0; i < description.size(); ++i) {
+        const TriangleCorners triangle = description.triangle(i);
+        const Vec3d normal = triangle_cross(triangle);
+        if (!(length(normal) > 0.0)) continue;
+        const double side = dot(front_of(shape, triangle, i), normal) < 0.0 ? -1.0 : 1.0;
+        volume += side * dot(Vec3d(triangle.p0) - from, normal) / 6.0;
+    }
+    return volume;
 }
 
 } // namespace
@@ -88,17 +103,10 @@ MeshFacts mesh_facts(const Shape& shape)
         facts.volume = 1.0;
         return facts;
     }
-    facts.is_closed = is_closed(description);
-    for (std::uint32_t i = 0; facts.is_closed && i < description.triangles().size(); ++i) {
-        const AccelBuilder::Triangle& triangle = description.triangles()[i];
-        const Vec3d normal = normal_of(description, triangle);
-        if (!(length(normal) > 0.0)) continue;
-        // The divergence theorem, from a point of the surface.
-        const Vec3d from =
-            Vec3d(description.corner(triangle, 0)) - Vec3d(description.corner(description.triangles()[0], 0));
-        const double side = dot(front_of(shape, description, i), normal) < 0.0 ? -1.0 : 1.0;
-        facts.volume += side * dot(from, normal) / 6.0;
-    }
+    const std::vector<Edge> edges = edges_of(description);
+    facts.open_edges = open_among(edges);
+    facts.is_closed = !edges.empty() && facts.open_edges.empty();
+    if (facts.is_closed) facts.volume = volume_of(shape, description);
     return facts;
 }
 

@@ -54,7 +54,7 @@ Estimate estimate(const Options& options, const std::string& integrator, const s
     how.samples_per_pixel =
         seconds > 0.0 ? samples_in(seconds, scene.job, how) : scene.job.sampler->samples_per_pixel();
     ProgressDisplay display(options.quiet);
-    const RenderResult result =
+    const RenderState result =
         render(scene.job, how, [&](const Progress& progress) { display.show(progress); });
 
     Estimate made{sampler.empty() ? integrator : integrator + " with " + sampler, how.samples_per_pixel,
@@ -72,6 +72,9 @@ std::string pair_text(const Pair& pair)
         found.p);
     if (pair.comparison.outcome == CompareOutcome::undecided && !found.reason.empty())
         text += fmt::format(" ({})", found.reason);
+    if (pair.comparison.outcome == CompareOutcome::passes && found.differing + found.untested > 0)
+        text += fmt::format(" ({} of {} pixels differ, {} are undecided)", found.differing, found.pixels,
+                            found.untested);
     if (found.detectable_bias)
         text += fmt::format("; a bias of {:.3g} % would have been found with 90 % probability",
                             *found.detectable_bias * 100.0);
@@ -98,6 +101,25 @@ const char* verdict_of(CompareOutcome outcome)
     return "";
 }
 
+// What may decide it. An estimator that all undecided pairs share, and others do not, is the one that rarely finds some
+// of the light.
+std::string advice(const std::vector<Estimate>& estimates, const std::vector<Pair>& pairs)
+{
+    const auto is_shared = [&](const Estimate& estimate) {
+        return std::all_of(pairs.begin(), pairs.end(), [&](const Pair& pair) {
+            return pair.comparison.outcome != CompareOutcome::undecided || &pair.a == &estimate ||
+                   &pair.b == &estimate;
+        });
+    };
+    std::string names;
+    for (const Estimate& estimate : estimates)
+        if (estimates.size() > 2 && is_shared(estimate))
+            names += (names.empty() ? "" : " or ") + estimate.name;
+    std::string text = "more samples may decide it";
+    if (!names.empty()) text += "; or leave out " + names + ", which finds some of the light too rarely";
+    return text + "\n";
+}
+
 std::string agreement_json(const Options& options, const std::vector<Estimate>& estimates,
                            const std::vector<Pair>& pairs)
 {
@@ -120,6 +142,8 @@ std::string agreement_json(const Options& options, const std::vector<Estimate>& 
         json.text("a", pair.a.name);
         json.text("b", pair.b.name);
         json.text("outcome", outcome_word(pair.comparison.outcome));
+        if (!pair.comparison.significance.reason.empty())
+            json.text("reason", pair.comparison.significance.reason);
         json.number("p", pair.comparison.significance.p);
         if (const auto& bias = pair.comparison.significance.detectable_bias)
             json.number("detectable_bias", *bias);
@@ -137,7 +161,7 @@ void check_request(const Options& options)
     const AgreeRequest& request = options.agree;
     if (request.integrators.size() * std::max<std::size_t>(request.samplers.size(), 1) < 2)
         throw UsageError("agree needs two estimators or more; name them with --integrators");
-    if (request.seconds > 0.0 && options.load.samples_per_pixel)
+    if (options.stop.seconds && options.load.samples_per_pixel)
         throw UsageError("--time and --spp exclude each other");
 }
 
@@ -148,7 +172,9 @@ std::string_view agree_manual()
     return "Renders the scene with each estimator, each with random numbers of its own and without a depth\n"
            "cut, and compares all pairs as `renderer compare` does; the significance is that of all pairs\n"
            "together. An error that all the estimators share - in a BSDF, the camera, a mesh - makes no\n"
-           "difference between them and is not found.\n"
+           "difference between them and is not found. Undecided: some of the light is found by so few\n"
+           "samples of an estimator that their spread says nothing. Take more, or leave it out: naive paths\n"
+           "rarely meet small lamps, samples of large lamps rarely fit surfaces that are nearly smooth.\n"
            "Exit code: 0 they agree, 1 the scene is wrong, 2 wrong usage, 3 they differ, 4 undecided.\n";
 }
 
@@ -159,8 +185,8 @@ int agree_command(const Options& options)
     const AgreeRequest& request = options.agree;
     const std::vector<std::string> samplers =
         request.samplers.empty() ? std::vector<std::string>{""} : request.samplers;
-    const double seconds_each =
-        request.seconds / static_cast<double>(request.integrators.size() * samplers.size());
+    const double seconds_each = options.stop.seconds.value_or(0.0) /
+                                static_cast<double>(request.integrators.size() * samplers.size());
 
     std::vector<Estimate> estimates;
     for (const std::string& integrator : request.integrators)
@@ -185,6 +211,7 @@ int agree_command(const Options& options)
         for (const Pair& pair : pairs) print_output(pair_text(pair));
         print_output(
             fmt::format("{}; what is wrong in all of them alike is beyond this test\n", verdict_of(outcome)));
+        if (outcome == CompareOutcome::undecided) print_output(advice(estimates, pairs));
     }
     if (!options.json.empty()) write_json(options.json, agreement_json(options, estimates, pairs));
     return exit_code_of(outcome);

@@ -43,7 +43,7 @@ std::vector<fs::path> files_to_keep(const std::vector<BatchJob>& jobs, const Opt
     return files;
 }
 
-// Runs one job after the other, with a line on the console for each, until one fails if that is asked for.
+// Runs one job after the other, with a line on the console for each, until a signal comes, or one fails if that is asked for.
 template <class Run>
 BatchRun run_all(const std::vector<BatchJob>& jobs, const Options& options, const Run& run)
 {
@@ -53,7 +53,8 @@ BatchRun run_all(const std::vector<BatchJob>& jobs, const Options& options, cons
         width =
             std::max(width, (options.batch.update ? job.entry.reference.string() : job.entry.title()).size());
 
-    BatchRun all{options.subject, {}, {}, 0.0};
+    BatchRun all;
+    all.suite = options.subject;
     bool stopped = false;
     for (const BatchJob& job : jobs) {
         if (stopped) {
@@ -65,7 +66,8 @@ BatchRun run_all(const std::vector<BatchJob>& jobs, const Options& options, cons
         const BatchResult& result = all.results.emplace_back(run(job));
         if (!options.quiet || result.verdict == BatchVerdict::error) print_output(result_line(result, width));
         finish_output(); // so far
-        stopped = options.batch.fail_fast && result.verdict > BatchVerdict::passes;
+        all.signal = result.signal;
+        stopped = result.signal != 0 || (options.batch.fail_fast && result.verdict > BatchVerdict::passes);
     }
     all.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return all;

@@ -14,17 +14,25 @@ int types_command(const Options& options);
 int info_command(const Options& options);
 int replay_command(const Options& options);
 int rerun_command(const Options& options);
+int merge_command(const Options& options);
 int check_command(const Options& options);
 int compare_command(const Options& options);
 int agree_command(const Options& options);
 int test_command(const Options& options);
 int batch_command(const Options& options);
 
-// Renders a loaded scene, writes pictures and report, and returns the report.
-Report render_and_write(const Options& options, const LoadedScene& scene);
+// What became of a rendering.
+struct Rendered {
+    Report report;
+    SampleSet::Range samples; // of a pixel
+    int signal = 0;           // that ended it; 0: none
+};
 
-// Says unless --quiet what render_and_write() did.
-void log_rendering(const Options& options, const Report& report);
+// Renders a loaded scene, and writes pictures, checkpoint and report.
+Rendered render_and_write(const Options& options, const LoadedScene& scene);
+
+// Says unless --quiet what render_and_write() did, and returns the exit code.
+int log_rendering(const Options& options, const Rendered& rendered);
 
 // Loads the scene that the options name, and logs its dialect and its warnings unless --quiet.
 LoadedScene load_and_log(const Options& options);

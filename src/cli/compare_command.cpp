@@ -4,6 +4,7 @@
 #include "cli/console.h"
 #include "cli/manuals.h"
 #include "cli/outputs.h"
+#include "core/lower_case.h"
 
 #include "plumb/compare.h"
 #include "plumb/error.h"
@@ -17,9 +18,7 @@ namespace {
 // Made for screens: no values above 1.
 bool is_low_dynamic_range(const std::filesystem::path& path)
 {
-    std::string extension = path.extension().string();
-    for (char& c : extension)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    const std::string extension = lower_case(path.extension().string());
     return extension == ".png" || extension == ".jpg" || extension == ".jpeg" || extension == ".bmp" ||
            extension == ".tga" || extension == ".gif" || extension == ".ppm";
 }

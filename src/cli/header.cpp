@@ -3,7 +3,11 @@
 
 #include "cli/text.h"
 
+#include <cstring>
 #include <fmt/format.h>
+#if defined(__x86_64__) || defined(__i386__)
+#include <cpuid.h>
+#endif
 
 namespace plumb {
 
@@ -25,6 +29,20 @@ std::string scene_name(const Options& options)
     return valid_utf8((path.is_absolute() ? path.filename() : path).generic_string());
 }
 
+std::string processor_maker()
+{
+#if defined(__x86_64__) || defined(__i386__)
+    unsigned int ignored = 0;
+    unsigned int name[3] = {};
+    __get_cpuid(0, &ignored, &name[0], &name[2], &name[1]);
+    std::string maker(sizeof name, '\0');
+    std::memcpy(maker.data(), name, sizeof name);
+    return visible_text(maker);
+#else
+    return "unknown";
+#endif
+}
+
 const char* on_off(bool on)
 {
     return on ? "on" : "off";
@@ -41,14 +59,14 @@ std::string input_name(const std::filesystem::path& input, const std::filesystem
     return valid_utf8((inside ? from_scene : input.filename()).generic_string());
 }
 
-Metadata image_header(const Options& options, const LoadedScene& scene, const Report& report)
+Metadata scene_header(const Options& options, const LoadedScene& scene)
 {
     Metadata header;
     const auto add = [&](const char* name, MetadataValue value) {
         header.emplace_back(name, std::move(value));
     };
     add("Software", "Plumb " PLUMB_VERSION);
-    add("plumb:scene", options.scene_name.empty() ? scene_name(options) : options.scene_name);
+    add("plumb:scene", options.repeat ? options.repeat->scene : scene_name(options));
     if (!options.picture_words.empty()) add("plumb:arguments", valid_utf8(options.picture_words.substr(1)));
     std::string inputs;
     for (const InputFile& input : scene.inputs)
@@ -63,7 +81,6 @@ Metadata image_header(const Options& options, const LoadedScene& scene, const Re
     }
     add("plumb:integrator", scene.integrator);
     add("plumb:sampler", scene.sampler);
-    add("plumb:samplesPerPixel", static_cast<int>(scene.job.sampler->samples_per_pixel())); // at most 2^26
     add("plumb:seed", std::to_string(options.render.seed));
     add("plumb:dialect", std::string(to_string(scene.dialect.name)));
     add("plumb:dialectReason", valid_utf8(scene.dialect.reason));
@@ -74,18 +91,45 @@ Metadata image_header(const Options& options, const LoadedScene& scene, const Re
     add("plumb:envmapScale", scene.dialect.environment_scale);
     add("plumb:instructionSet", scene.job.scene.options().instruction_set);
     add("plumb:embree", scene.job.scene.embree_version());
-    const Ledger& ledger = report.ledger;
+    add("plumb:processor", processor_maker());
+    add("worldToCamera", world_to_camera(*scene.job.camera));
+    return header;
+}
+
+Metadata work_header(const Options& options, const LoadedScene& scene)
+{
+    Metadata header = scene_header(options, scene);
+    const Ledger ledger = make_ledger(scene.job, scene.dialect);
+    if (!ledger.biases.empty()) header.emplace_back("plumb:workBiases", lines_text(ledger.biases));
+    if (!ledger.model.empty()) header.emplace_back("plumb:workModel", lines_text(ledger.model));
+    if (const auto& part = options.part) {
+        header.emplace_back("plumb:workWanted", static_cast<int>(render_samples(scene.job, options.render)));
+        header.emplace_back("plumb:workPart", fmt::format("{}/{} by {}", part->index + 1, part->count,
+                                                          part->by == PartBy::tiles ? "tiles" : "samples"));
+    }
+    return header;
+}
+
+Metadata evidence_header(const Evidence& evidence)
+{
+    Metadata header;
+    const auto add = [&](const char* name, MetadataValue value) {
+        header.emplace_back(name, std::move(value));
+    };
+    add("plumb:samplesPerPixel", static_cast<int>(evidence.samples_per_pixel)); // at most 2^26
+    if (!evidence.even) add("plumb:samplesTaken", evidence.taken.text());
+    if (!evidence.stop.empty()) add("plumb:stop", evidence.stop);
+    const Ledger& ledger = evidence.ledger;
     add("plumb:biased", ledger.biases.empty() ? 0 : 1);
     if (!ledger.biases.empty()) add("plumb:biases", list_text(ledger.biases));
     if (!ledger.model.empty()) add("plumb:model", list_text(ledger.model));
-    if (const auto& noise = report.noise) {
+    if (const auto& noise = evidence.noise) {
         add("plumb:rmse", static_cast<float>(noise->rmse));
         add("plumb:rmseInterval",
             std::vector<float>{static_cast<float>(noise->low), static_cast<float>(noise->high)});
     }
-    add("plumb:leftOut", std::to_string(report.left_out.count));
-    if (report.left_out.count > 0) add("plumb:leftOutFirst", left_out_text(report.left_out.first));
-    add("worldToCamera", world_to_camera(*scene.job.camera));
+    add("plumb:leftOut", std::to_string(evidence.left_out.count));
+    if (evidence.left_out.count > 0) add("plumb:leftOutFirst", left_out_text(evidence.left_out.first));
     return header;
 }
 

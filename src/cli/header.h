@@ -12,7 +12,9 @@
 //     plumb:inputHash         of all these, and of what the command line and the dialect make of them
 //     plumb:definitions       -D, in the order of the names; only if given
 //     plumb:integrator, plumb:sampler   type names
-//     plumb:samplesPerPixel
+//     plumb:samplesPerPixel   the smallest number that a pixel has
+//     plumb:samplesTaken      which samples the pixels have (SampleSet::text); only if not all have the same number
+//     plumb:stop              what ended the rendering before the number of samples that was asked for; only if so
 //     plumb:seed              a string, for it has 64 bits
 //     plumb:dialect, plumb:dialectReason
 //     plumb:emitters          "scatter" or "absorb"
@@ -21,6 +23,7 @@
 //     plumb:envmapFlipped     "on" or "off"
 //     plumb:envmapScale
 //     plumb:instructionSet, plumb:embree
+//     plumb:processor         who made it: "GenuineIntel". Its estimates of reciprocals are not those of another maker's
 //     plumb:biased            0 if the picture's expectation is that of the light which its model sends; else 1
 //     plumb:biases            what makes it differ; only if biased
 //     plumb:model             choices of model; only if there are any
@@ -31,11 +34,26 @@
 //     worldToCamera           as OpenEXR wants it: for row vectors, so that elements 12 to 14 are the translation.
 //                             In camera space +z looks forward, +y is up and +x is left.
 
-#include "cli/report.h"
+//
+// The header of a state file (state_file.h) has the first part of this, and
+//
+//     plumb:workBiases, plumb:workModel   what the ledger had before the first sample, a line each
+//     plumb:workWanted        samples per pixel of the whole picture; only for a part
+//     plumb:workPart          "3/8 by tiles"; only for a part
+//     plumb:workStop          plumb:stop, when the rendering had ended
+
+#include "cli/options.h"
+
+#include "plumb/evidence.h"
 
 namespace plumb {
 
-Metadata image_header(const Options& options, const LoadedScene& scene, const Report& report);
+// What does not depend on the samples; the evidence does.
+Metadata scene_header(const Options& options, const LoadedScene& scene);
+Metadata evidence_header(const Evidence& evidence);
+Metadata work_header(const Options& options,
+                     const LoadedScene& scene); // scene_header() and all of plumb:work
+inline constexpr std::string_view work_prefix = "plumb:work";
 
 // The path of an input as plumb:inputs has it.
 std::string input_name(const std::filesystem::path& input, const std::filesystem::path& scene_file);

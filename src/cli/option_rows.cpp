@@ -4,6 +4,7 @@
 #include "cli/values.h"
 #include "cli/verbs.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace plumb {
@@ -20,6 +21,7 @@ constexpr unsigned replay_only = verb_bit(Verb::replay);
 constexpr unsigned rerun_only = verb_bit(Verb::rerun);
 constexpr unsigned rendering = render_only | rerun_only;
 constexpr unsigned both = render_only | replay_only;
+constexpr unsigned merge_only = verb_bit(Verb::merge);
 constexpr unsigned test_only = verb_bit(Verb::test);
 constexpr unsigned compare_only = verb_bit(Verb::compare);
 constexpr unsigned agree_only = verb_bit(Verb::agree);
@@ -49,21 +51,19 @@ void define(Options& options, Name name, Text text)
 // "rmse=0.01,flip=0.05", added to the limits there are.
 void add_limits(Options& options, Name name, Text text)
 {
-    for (std::size_t start = 0; start <= text.size();) {
-        const std::size_t end = std::min(text.find(',', start), text.size());
-        const auto [metric, value] = parse_definition(name, text.substr(start, end - start));
+    for (const std::string& part : parse_list(name, text)) {
+        const auto [metric, value] = parse_definition(name, part);
         parse_word(name, metric, {"mse", "rmse", "relmse", "mae", "max", "psnr", "flip"});
         const double limit = parse_double(fmt::format("{} {}", name, metric), value, -1e30, 1e30);
         for (const Threshold& other : options.compare.how.thresholds)
             if (other.metric == metric) throw UsageError(fmt::format("{} {} is given twice", name, metric));
         options.compare.how.thresholds.push_back({metric, limit});
-        start = end + 1;
     }
 }
 
 // Every option, in the order of --help.
 const OptionRow rows[] = {
-    {Topic::output, rendering, "-o,--output", "FILE",
+    {Topic::output, rendering | merge_only, "-o,--output", "FILE",
      "write this image: .exr, .hdr, .tif, .png or .jpg; may be given\n"
      "several times (default SCENE_SPP.exr and .png in this folder)",
      [](Options& o, Name, Text t) { o.outputs.push_back(t); }, true},
@@ -73,7 +73,7 @@ const OptionRow rows[] = {
      "leave the error bars out of .exr files: variance.R, variance.G,\n"
      "variance.B and contributing",
      [](Options& o, Name, Text) { o.variance = false; }},
-    {Topic::output, rendering | test_only | compare_only | agree_only, "--json", "FILE",
+    {Topic::output, rendering | merge_only | test_only | compare_only | agree_only, "--json", "FILE",
      "write a report of the run; - is standard output", [](Options& o, Name, Text t) { o.json = t; }},
     {Topic::output, batch_only, "--out", "FOLDER", "for pictures and reports (default batch/SUITE)",
      [](Options& o, Name n, Text t) {
@@ -89,6 +89,32 @@ const OptionRow rows[] = {
      [](Options& o, Name n, Text t) {
          o.compare.difference_is_flip = parse_word(n, t, {"error", "flip"}) == "flip";
      }},
+
+    {Topic::state, render_only | merge_only, "--checkpoint", "FILE",
+     "keep all that is rendered in this .exr file, to go on from",
+     [](Options& o, Name n, Text t) {
+         if (t.empty()) throw UsageError(fmt::format("{} needs a file name", n));
+         o.checkpoint.file = t;
+     }},
+    {Topic::state, render_only, "--checkpoint-every", "T", "how often: 90, 90s, 10m or 2h (default 60s)",
+     [](Options& o, Name n, Text t) { o.checkpoint.every_seconds = parse_duration(n, t); }},
+    {Topic::state, render_only, "--resume", "", "go on from the checkpoint, if there is one",
+     [](Options& o, Name, Text) { o.checkpoint.resume = true; }},
+    {Topic::state, render_only, "--part", "K/N",
+     "take the samples of part K of N only, from 1; -o is then a file\nfor 'renderer merge', and the "
+     "checkpoint",
+     [](Options& o, Name n, Text t) {
+         const auto [index, count] = parse_part(n, t);
+         if (!o.part) o.part.emplace();
+         o.part->index = index - 1;
+         o.part->count = count;
+     }},
+    {Topic::state, render_only, "--part-by", "WHAT", "tiles or samples (default tiles)",
+     [](Options& o, Name n, Text t) {
+         o.part_by = parse_word(n, t, {"tiles", "samples"}) == "tiles" ? PartBy::tiles : PartBy::samples;
+     }},
+    {Topic::state, merge_only, "--allow-missing", "", "make the picture although samples are missing",
+     [](Options& o, Name, Text) { o.allow_missing = true; }},
 
     {Topic::picture, both | agree_only, "--spp", "N", "samples per pixel (default: the scene's)",
      [](Options& o, Name n, Text t) { o.load.samples_per_pixel = parse_integer(n, t, 1, film_max_samples); }},
@@ -110,8 +136,12 @@ const OptionRow rows[] = {
     {Topic::picture, agree_only, "--samplers", "TYPE,...",
      "each estimator with each of them (default: the scene's)",
      [](Options& o, Name n, Text t) { o.agree.samplers = parse_list(n, t); }},
-    {Topic::picture, agree_only, "--time", "T", "about as long in all: 90, 90s, 10m or 2h; instead of --spp",
-     [](Options& o, Name n, Text t) { o.agree.seconds = parse_duration(n, t); }},
+    {Topic::picture, render_only | agree_only, "--time", "T",
+     "take about as long, in all: 90, 90s, 10m or 2h; rendering takes\nat most --spp samples",
+     [](Options& o, Name n, Text t) { o.stop.seconds = parse_duration(n, t); }},
+    {Topic::picture, render_only, "--target-error", "E",
+     "until the noise is below E times the picture's mean (its RMSE,\nthe upper end of the 95 % interval)",
+     [](Options& o, Name n, Text t) { o.stop.relative_error = parse_double(n, t, 1e-9, 1e3); }},
 
     {Topic::scene, loads | batch_only, "-D,--define", "NAME=VALUE",
      "value of $NAME in the file; may be repeated", define, true},
@@ -155,7 +185,7 @@ const OptionRow rows[] = {
      [](Options& o, Name n, Text t) {
          o.load.instruction_set = parse_word(n, t, {"sse2", "sse4.2", "avx", "avx2", "avx512"});
      }},
-    {Topic::running, loads | rerun_only | compare_only | batch_only, "--quiet", "",
+    {Topic::running, loads | rerun_only | merge_only | compare_only | batch_only, "--quiet", "",
      "print nothing but errors", [](Options& o, Name, Text) { o.quiet = true; }},
     {Topic::running, loads_scene | rerun_only, "--verbose", "", "print facts about the scene",
      [](Options& o, Name, Text) { o.verbose = true; }},
@@ -174,7 +204,8 @@ const OptionRow rows[] = {
      }},
     {Topic::verdict, compare_only, "--no-verdict", "", "ignore the noise: the limits of --max decide",
      [](Options& o, Name, Text) { o.compare.how.verdict = false; }},
-    {Topic::verdict, compare_only, "--fail-percent", "P", "of the pixels may differ (default 0)",
+    {Topic::verdict, compare_only | agree_only, "--fail-percent", "P",
+     "of the pixels may differ or stay undecided (default 0)",
      [](Options& o, Name n, Text t) { o.compare.how.fail_percent = parse_double(n, t, 0.0, 100.0); }},
     {Topic::verdict, compare_only, "--max", "METRIC=X,...",
      "fail above these: mse, rmse, relmse, mae, max, flip; or below: psnr", add_limits, true},
@@ -211,8 +242,10 @@ bool OptionRow::changes_scene() const
 
 bool OptionRow::changes_picture() const
 {
-    return changes_scene() || long_name() == "--crop" || long_name() == "--exposure" ||
-           long_name() == "--no-variance";
+    constexpr std::string_view others[] = {"--crop", "--exposure", "--no-variance", "--time",
+                                           "--target-error"};
+    return changes_scene() ||
+           (goes_with(Verb::render) && std::ranges::find(others, long_name()) != std::end(others));
 }
 
 std::span<const OptionRow> option_rows()

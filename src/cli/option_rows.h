@@ -10,7 +10,7 @@
 namespace plumb {
 
 // Headings of --help, more or less.
-enum class Topic { output, picture, scene, running, path, verdict, about };
+enum class Topic { output, state, picture, scene, running, path, verdict, about };
 
 struct OptionRow {
     Topic topic;

@@ -76,6 +76,30 @@ void check_outputs(const Options& options)
     for (const std::string& file : options.outputs) check(file, "--output");
     if (!options.json.empty() && options.json != "-") check(options.json, "--json");
     if (!options.compare.difference.empty()) check(options.compare.difference, "--diff");
+    if (!options.part && !options.checkpoint.file.empty()) check(options.checkpoint.file, "--checkpoint");
+}
+
+// A part is no picture yet: its output is the state file. What goes with what.
+void settle_state_file(Options& options)
+{
+    CheckpointRequest& checkpoint = options.checkpoint;
+    if (options.part_by && !options.part) throw UsageError("--part-by needs --part K/N");
+    if (options.part) {
+        options.part->by = options.part_by.value_or(PartBy::tiles);
+        if (!checkpoint.file.empty())
+            throw UsageError(
+                "--part and --checkpoint exclude each other: the output of a part is its checkpoint");
+        if (options.outputs.size() != 1) throw UsageError("--part needs one -o,--output FILE.exr");
+        if (options.stop.seconds || options.stop.relative_error)
+            throw UsageError("a part is a fixed set of samples: --part goes with --spp, not with --time or "
+                             "--target-error");
+        checkpoint.file = options.outputs.front();
+    }
+    if (checkpoint.resume && checkpoint.file.empty())
+        throw UsageError("--resume needs --checkpoint FILE, to go on from");
+    if (!checkpoint.file.empty() && !checkpoint.file.ends_with(".exr"))
+        throw UsageError(
+            fmt::format("a checkpoint and a part are .exr files, and '{}' is none", checkpoint.file));
 }
 
 // CLI11 says "--spp: 1 required TEXT missing" or "quiet was given a disallowed flag override".
@@ -113,6 +137,7 @@ void apply(const OptionRow& row, const std::vector<std::string>& values, Options
 Options parse_options(std::vector<std::string> words)
 {
     Options options;
+    for (const std::string& word : words) options.all_words += " " + shell_quote(word);
     for (const VerbRow& row : verb_rows())
         if (!words.empty() && !row.name.empty() && words.front() == row.name) options.verb = row.verb;
     const VerbRow& verb = row_of(options.verb);
@@ -163,6 +188,10 @@ Options parse_options(std::vector<std::string> words)
         for (const auto& [row, option] : given)
             if (row->topic == Topic::path && option->count() == 0)
                 throw UsageError(fmt::format("replay needs {} {}", row->names, row->value));
+    if (options.verb == Verb::render) settle_state_file(options);
+    if (options.verb == Verb::merge && options.outputs.empty() && options.checkpoint.file.empty())
+        throw UsageError(
+            "merge needs -o,--output IMAGE, or --checkpoint FILE for parts that are to be merged on");
     if (options.quiet && options.verbose) throw UsageError("--quiet and --verbose exclude each other");
     check_outputs(options);
     return options;

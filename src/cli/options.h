@@ -4,6 +4,7 @@
 // What the command line asks for. A pure function of the words: nothing is printed, read or exited here.
 
 #include "plumb/compare.h"
+#include "plumb/sample_set.h"
 #include "plumb/scene_file.h"
 
 #include <stdexcept>
@@ -12,7 +13,7 @@
 
 namespace plumb {
 
-enum class Verb { render, types, info, replay, rerun, test, compare, agree, check, batch };
+enum class Verb { render, types, info, replay, rerun, merge, test, compare, agree, check, batch };
 
 // The command line makes no sense: main() prints the message and exits with 2.
 class UsageError : public std::runtime_error {
@@ -32,7 +33,32 @@ struct CompareRequest {
 struct AgreeRequest {
     std::vector<std::string> integrators = {"path", "path_nee", "path_mis"};
     std::vector<std::string> samplers; // none: the scene's
-    double seconds = 0.0; // for all pictures together; 0: as many samples as the scene or --spp says
+};
+
+// When a rendering ends, besides the number of samples: stop_rules.h.
+struct StopRequest {
+    std::optional<double> seconds; // for all pictures of a run together
+    std::optional<double> relative_error;
+};
+
+struct CheckpointRequest {
+    std::string file; // empty: none
+    double every_seconds = 60.0;
+    bool resume = false;
+};
+
+// One of the parts of a picture, from 0.
+struct PartRequest {
+    std::uint64_t index = 0;
+    std::uint64_t count = 1;
+    PartBy by = PartBy::tiles;
+};
+
+// A picture that is there, to be rendered again.
+struct RepeatRequest {
+    std::string scene; // what its header calls the scene
+    SampleSet samples;
+    std::string stop; // Evidence::stop
 };
 
 // What `renderer batch` does with a suite.
@@ -55,8 +81,8 @@ struct Options {
     std::vector<std::string> outputs; // none: <scene>_<spp>.exr and .png
     std::string json;                 // empty: no report; "-": standard output
     float exposure = 0.f;
-    std::string scene_name; // what the picture's header is to call the scene; empty: by its path
-    bool variance = true;   // .exr files also hold the error bars
+    bool keep_interrupted = true; // write the picture although a signal ended the rendering
+    bool variance = true;         // .exr files also hold the error bars
     bool quiet = false;
     bool verbose = false;
     LoadOptions load;     // with samples_per_pixel, if given
@@ -66,11 +92,18 @@ struct Options {
     CompareRequest compare;
     AgreeRequest agree;
     BatchRequest batch;
+    StopRequest stop;
+    CheckpointRequest checkpoint;
+    std::optional<PartRequest> part;
+    std::optional<PartBy> part_by; // as given; settled in part
+    bool allow_missing = false;    // merge parts although some are not there
+    std::optional<RepeatRequest> repeat;
 
     // The words that change the scene or the seed, quoted for a shell: " --seed 7 --define 'a=b c'"; and those that
     // change a picture's file.
     std::string scene_words;
     std::string picture_words;
+    std::string all_words; // as given, quoted
 };
 
 // words: without the program's name. Throws UsageError.

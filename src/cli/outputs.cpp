@@ -3,6 +3,7 @@
 
 #include "cli/console.h"
 #include "cli/options.h"
+#include "cli/text.h"
 #include "cli/text_file.h"
 
 #include "plumb/error.h"
@@ -34,6 +35,22 @@ std::vector<std::string> all_files(std::vector<std::string> images, const std::s
     return images;
 }
 
+// A picture may have taken long. Where it is now, for a message; empty: nowhere.
+std::string write_into_refuge(const std::filesystem::path& output, const Image& image, float exposure,
+                              const std::filesystem::path& refuge)
+{
+    std::error_code ignored;
+    if (!output.has_parent_path() || std::filesystem::exists(output.parent_path(), ignored)) return {};
+    const std::filesystem::path other = refuge / output.filename();
+    if (std::filesystem::exists(other, ignored)) return {}; // not over what is there
+    try {
+        write_image(other, image, exposure);
+    } catch (const Error&) {
+        return {};
+    }
+    return fmt::format("; the picture is in '{}' instead", other.string());
+}
+
 } // namespace
 
 void check_outputs(const std::vector<std::string>& images, const std::string& json)
@@ -57,6 +74,20 @@ void keep_inputs(const std::vector<std::filesystem::path>& inputs, const std::ve
         for (const std::filesystem::path& input : inputs)
             if (const auto path = identity(file); !path.empty() && path == identity(input))
                 throw Error(fmt::format("cannot write '{}': {}", file, reason));
+}
+
+void write_pictures(const std::vector<std::string>& outputs, const Image& image, float exposure,
+                    const std::filesystem::path& refuge)
+{
+    std::vector<std::string> problems;
+    for (const std::string& output : outputs) {
+        try {
+            write_image(output, image, exposure);
+        } catch (const Error& error) {
+            problems.push_back(error.what() + write_into_refuge(output, image, exposure, refuge));
+        }
+    }
+    if (!problems.empty()) throw Error(list_text(problems));
 }
 
 void write_json(const std::string& json, std::string_view text)

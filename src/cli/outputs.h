@@ -3,6 +3,8 @@
 
 // The files that a command writes: found out about before the work begins.
 
+#include "plumb/image.h"
+
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -17,6 +19,12 @@ void check_outputs(const std::vector<std::string>& images, const std::string& js
 // Throws Error, "cannot write 'X': " and the reason, if an output is one of the inputs.
 void keep_inputs(const std::vector<std::filesystem::path>& inputs, const std::vector<std::string>& images,
                  const std::string& json, std::string_view reason);
+
+// Writes the picture to all of these. One that cannot be written does not keep the others from being tried; if its folder
+// is gone, it is written into `refuge` instead. Throws Error, with where it is then, if any was not written where it was
+// to be.
+void write_pictures(const std::vector<std::string>& outputs, const Image& image, float exposure,
+                    const std::filesystem::path& refuge);
 
 // Where --json says, if anywhere.
 void write_json(const std::string& json, std::string_view text);

@@ -14,10 +14,12 @@ constexpr double redraw_seconds = 0.1;
 
 std::string remaining_text(const Progress& progress)
 {
-    if (progress.samples_done == 0) return "?";
-    const auto done = static_cast<double>(progress.samples_done);
-    const auto total = static_cast<double>(progress.samples_total);
-    return clock_text(progress.seconds * std::max(total - done, 0.0) / done);
+    if (progress.samples_done <= progress.samples_before) return "?";
+    const auto done =
+        static_cast<double>(progress.samples_done - progress.samples_before); // in these seconds
+    const auto left =
+        static_cast<double>(progress.samples_total) - static_cast<double>(progress.samples_done);
+    return clock_text(progress.seconds * std::max(left, 0.0) / done);
 }
 
 std::string facts(const Progress& progress)

@@ -4,7 +4,7 @@
 #include "cli/exit_codes.h"
 #include "cli/header.h"
 #include "cli/outputs.h"
-#include "cli/progress.h"
+#include "cli/render_run.h"
 #include "cli/report.h"
 #include "cli/text.h"
 
@@ -34,80 +34,114 @@ std::vector<std::filesystem::path> paths_of(const std::vector<InputFile>& inputs
 std::vector<std::string> default_outputs(const Options& options, const LoadedScene& scene)
 {
     const std::string stem = std::filesystem::path(options.subject).stem().string();
-    const std::string name = fmt::format("{}_{}", stem, scene.job.sampler->samples_per_pixel());
+    const bool fixed =
+        options.load.samples_per_pixel || !(options.stop.seconds || options.stop.relative_error);
+    const std::string name =
+        fixed ? fmt::format("{}_{}", stem, scene.job.sampler->samples_per_pixel()) : stem;
     return {name + ".exr", name + ".png"};
 }
 
-// A picture may have taken long: one that cannot be written does not keep the others from being tried.
-void write_images(const std::vector<std::string>& outputs, const Image& image, float exposure)
+void log_summary(const Report& report, const Options& options)
 {
-    std::vector<std::string> problems;
-    for (const std::string& output : outputs) {
-        try {
-            write_image(output, image, exposure);
-        } catch (const Error& error) {
-            problems.emplace_back(error.what());
-        }
-    }
-    if (!problems.empty()) throw Error(list_text(problems));
+    const Evidence& evidence = report.evidence;
+    print_log(fmt::format("{}: {} samples in {}, {}", list_text(report.outputs),
+                          count_text(evidence.taken.count()), duration_text(report.render_seconds),
+                          rate_text(report.rays.total(), report.render_seconds)));
+    if (const auto& noise = evidence.noise)
+        print_log(fmt::format("noise: rmse {:.3g} (95 % interval {:.3g} to {:.3g})", noise->rmse, noise->low,
+                              noise->high));
+    if (!evidence.ledger.biases.empty())
+        print_log(fmt::format("biased: {}", list_text(evidence.ledger.biases)));
+    if (evidence.left_out.count == 0) return;
+    const LeftOut::Sample& first = evidence.left_out.first;
+    print_log(fmt::format("warning: {} samples were left out, the first is {}; to see its path:\n"
+                          "    renderer replay {} --pixel {},{} --sample {}{}",
+                          evidence.left_out.count, left_out_text(first), shell_quote(options.subject),
+                          first.pixel.x, first.pixel.y, first.index, options.scene_words));
+}
+
+// What to do after a signal.
+void log_interruption(const Options& options, const SampleSet::Range& samples)
+{
+    std::string text =
+        fmt::format("interrupted with {} to {} samples per pixel", samples.least, samples.most);
+    if (options.checkpoint.file.empty())
+        text += "; without --checkpoint it cannot be gone on from";
+    else
+        text +=
+            "; to go on:\n    renderer" + options.all_words + (options.checkpoint.resume ? "" : " --resume");
+    print_log(text);
+}
+
+std::vector<std::string> images_of(const Options& options, const LoadedScene& scene)
+{
+    if (options.part) return {};
+    return options.outputs.empty() ? default_outputs(options, scene) : options.outputs;
+}
+
+std::vector<std::string> with_checkpoint(std::vector<std::string> images, const Options& options)
+{
+    if (!options.checkpoint.file.empty()) images.push_back(options.checkpoint.file);
+    return images;
+}
+
+// Hours of work are not to be written over.
+void keep_checkpoint(const Options& options)
+{
+    const std::string& file = options.checkpoint.file;
+    std::error_code ignored;
+    if (file.empty() || options.checkpoint.resume || !std::filesystem::exists(file, ignored)) return;
+    throw Error(fmt::format("'{}' is there already: go on from it with --resume, or remove it", file));
 }
 
 } // namespace
 
 int render_command(const Options& options)
 {
-    check_outputs(options.outputs, options.json);
-    log_rendering(options, render_and_write(options, load_and_log(options)));
-    return exit_code::done;
+    keep_checkpoint(options);
+    check_outputs(with_checkpoint(options.part ? std::vector<std::string>() : options.outputs, options),
+                  options.json);
+    return log_rendering(options, render_and_write(options, load_and_log(options)));
 }
 
-Report render_and_write(const Options& options, const LoadedScene& scene)
+Rendered render_and_write(const Options& options, const LoadedScene& scene)
 {
     const Stopwatch since_loaded;
-    const bool default_names = options.outputs.empty();
-    const std::vector<std::string> outputs =
-        default_names ? default_outputs(options, scene) : options.outputs;
-    if (default_names) check_outputs(outputs, options.json);
+    const std::vector<std::string> images = images_of(options, scene);
+    const std::vector<std::string> outputs = with_checkpoint(images, options);
+    if (options.outputs.empty()) check_outputs(outputs, options.json);
     keep_inputs(paths_of(scene.inputs), outputs, options.json, "the scene reads this file; write to another");
 
-    const RenderResult result = [&] {
-        ProgressDisplay display(options.quiet);
-        return render(scene.job, options.render, [&](const Progress& progress) { display.show(progress); });
-    }();
+    const Metadata header = scene_header(options, scene);
+    const RenderRun run = run_rendering(options, scene, work_header(options, scene));
 
     const Stopwatch writing;
-    Image image = result.film.develop(options.variance ? Channels::color_and_evidence : Channels::color);
-    Report report = make_report(options, scene, result);
+    Report report = make_report(options, scene, run.state,
+                                make_evidence(make_ledger(scene.job, scene.dialect), run.state, run.stop));
     report.outputs = outputs;
-    image.metadata = image_header(options, scene, report);
-    write_images(outputs, image, options.exposure);
+    if (!images.empty() && (run.signal == 0 || options.keep_interrupted)) {
+        Image image =
+            run.state.film.develop(options.variance ? Channels::color_and_evidence : Channels::color);
+        image.metadata = header;
+        const Metadata evidence = evidence_header(report.evidence);
+        image.metadata.insert(image.metadata.end(), evidence.begin(), evidence.end());
+        write_pictures(images, image, options.exposure,
+                       std::filesystem::path(options.checkpoint.file).parent_path());
+    }
 
     report.write_seconds = writing.seconds();
     report.total_seconds = scene.parse_seconds + scene.build_seconds + since_loaded.seconds();
     note_machine(report);
     if (!options.json.empty()) write_json(options.json, report_json(report));
-    return report;
+    return {std::move(report), run.state.taken.samples_per_pixel(run.state.film.window()), run.signal};
 }
 
-void log_rendering(const Options& options, const Report& report)
+int log_rendering(const Options& options, const Rendered& rendered)
 {
-    if (options.quiet) return;
-    const Vec2i size = report.crop ? Vec2i(report.crop->width, report.crop->height) : report.resolution;
-    const std::uint64_t samples =
-        static_cast<std::uint64_t>(size.x) * static_cast<std::uint64_t>(size.y) * report.samples_per_pixel;
-    print_log(fmt::format("{}: {} samples in {}, {}", list_text(report.outputs), count_text(samples),
-                          duration_text(report.render_seconds),
-                          rate_text(report.rays.total(), report.render_seconds)));
-    if (report.noise)
-        print_log(fmt::format("noise: rmse {:.3g} (95 % interval {:.3g} to {:.3g})", report.noise->rmse,
-                              report.noise->low, report.noise->high));
-    if (!report.ledger.biases.empty()) print_log(fmt::format("biased: {}", list_text(report.ledger.biases)));
-    if (report.left_out.count == 0) return;
-    const LeftOut::Sample& first = report.left_out.first;
-    print_log(fmt::format("warning: {} samples were left out, the first is {}; to see its path:\n"
-                          "    renderer replay {} --pixel {},{} --sample {}{}",
-                          report.left_out.count, left_out_text(first), shell_quote(options.subject),
-                          first.pixel.x, first.pixel.y, first.index, options.scene_words));
+    if (!options.quiet) log_summary(rendered.report, options);
+    if (rendered.signal == 0) return exit_code::done;
+    log_interruption(options, rendered.samples);
+    return exit_code::signal + rendered.signal;
 }
 
 } // namespace plumb

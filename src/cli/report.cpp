@@ -37,7 +37,7 @@ void write_picture(JsonWriter& json, const Report& report)
         integers("crop", {report.crop->x, report.crop->y, report.crop->width, report.crop->height});
     else
         json.null("crop");
-    json.integer("spp", report.samples_per_pixel);
+    json.integer("spp", report.evidence.samples_per_pixel);
     json.integer("seed", report.seed);
     json.integer("triangles", report.triangles);
 }
@@ -89,20 +89,22 @@ void write_evidence(JsonWriter& json, const Report& report)
         for (const std::string& value : values) json.text({}, value);
         json.end_array();
     };
-    json.boolean("biased", !report.ledger.biases.empty());
-    texts("biases", report.ledger.biases);
-    texts("model", report.ledger.model);
-    if (!report.noise) return json.null("noise");
+    json.boolean("biased", !report.evidence.ledger.biases.empty());
+    texts("biases", report.evidence.ledger.biases);
+    texts("model", report.evidence.ledger.model);
+    const std::optional<NoiseEstimate>& noise = report.evidence.noise;
+    if (!noise) return json.null("noise");
     json.begin_object("noise");
-    json.number("rmse", report.noise->rmse);
-    json.number("low", report.noise->low);
-    json.number("high", report.noise->high);
+    json.number("rmse", noise->rmse);
+    json.number("low", noise->low);
+    json.number("high", noise->high);
     json.end_object();
 }
 
 } // namespace
 
-Report make_report(const Options& options, const LoadedScene& scene, const RenderResult& result)
+Report make_report(const Options& options, const LoadedScene& scene, const RenderState& state,
+                   Evidence evidence)
 {
     Report report;
     report.scene = options.subject;
@@ -110,19 +112,16 @@ Report make_report(const Options& options, const LoadedScene& scene, const Rende
     report.dialect = scene.dialect;
     report.integrator = scene.integrator;
     report.sampler = scene.sampler;
-    report.samples_per_pixel = scene.job.sampler->samples_per_pixel();
     report.seed = options.render.seed;
     report.resolution = scene.job.camera->resolution();
     report.crop = options.render.crop;
     report.triangles = scene.job.scene.triangle_count();
     report.parse_seconds = scene.parse_seconds;
     report.build_seconds = scene.build_seconds;
-    report.render_seconds = result.seconds;
-    report.rays = result.rays;
-    report.left_out = result.left_out;
-    report.ledger = make_ledger(scene.job, scene.dialect, result);
-    report.noise = estimate_noise(result.film);
-    report.threads = result.threads;
+    report.render_seconds = state.seconds;
+    report.rays = state.rays;
+    report.evidence = std::move(evidence);
+    report.threads = render_threads(options.render);
     report.instruction_set = scene.job.scene.options().instruction_set;
     report.embree_version = scene.job.scene.embree_version();
     return report;
@@ -156,7 +155,7 @@ std::string report_json(const Report& report)
     json.text("sampler", report.sampler);
     write_picture(json, report);
     write_work(json, report);
-    write_left_out(json, report.left_out);
+    write_left_out(json, report.evidence.left_out);
     write_evidence(json, report);
     json.integer("threads", static_cast<std::uint64_t>(report.threads));
     json.text("instruction_set", report.instruction_set);

@@ -14,7 +14,6 @@ struct Report {
     Dialect dialect;
     std::string integrator;
     std::string sampler;
-    std::uint64_t samples_per_pixel = 0;
     std::uint64_t seed = 0;
     Vec2i resolution;
     std::optional<PixelRect> crop;
@@ -25,9 +24,7 @@ struct Report {
     double write_seconds = 0.0;
     double total_seconds = 0.0;
     RayCounts rays;
-    LeftOut left_out;
-    Ledger ledger;
-    std::optional<NoiseEstimate> noise; // nothing where it is not known
+    Evidence evidence;
     int threads = 0;
     std::string instruction_set;
     std::string embree_version;
@@ -38,7 +35,8 @@ struct Report {
 };
 
 // All but outputs, times of writing and in total, and what note_machine() fills in.
-Report make_report(const Options& options, const LoadedScene& scene, const RenderResult& result);
+Report make_report(const Options& options, const LoadedScene& scene, const RenderState& state,
+                   Evidence evidence);
 void note_machine(Report& report); // peak memory, host and time, now
 
 std::string report_json(const Report& report);

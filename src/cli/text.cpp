@@ -100,6 +100,24 @@ std::string list_text(const std::vector<std::string>& items)
     return text;
 }
 
+std::string lines_text(const std::vector<std::string>& items)
+{
+    std::string text;
+    for (const std::string& item : items) text += (text.empty() ? "" : "\n") + item;
+    return text;
+}
+
+std::vector<std::string> lines_of(std::string_view text)
+{
+    std::vector<std::string> lines;
+    while (!text.empty()) {
+        const std::size_t end = std::min(text.find('\n'), text.size());
+        lines.emplace_back(text.substr(0, end));
+        text.remove_prefix(std::min(end + 1, text.size()));
+    }
+    return lines;
+}
+
 std::vector<std::string> shell_split(std::string_view line)
 {
     std::vector<std::string> words;

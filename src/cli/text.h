@@ -15,13 +15,16 @@ namespace plumb {
 std::string duration_text(double seconds);   // 0.123 s, 12.3 s, 4:05, 1:00:09: rounded down
 std::string clock_text(double seconds);      // 0:04, 4:05, 1:00:09: rounded down; "?" if it cannot be known
 std::string count_text(std::uint64_t count); // 999, 12.3 k, 4.56 M, 7.89 G: three digits, rounded down
-std::string rate_text(std::uint64_t rays, double seconds);    // 12.3 Mrays/s
-std::string color_text(const Color& color);                   // 0.5 1 nan
-std::string_view verdict_text(Verdict verdict);               // "not finite"
-std::string list_text(const std::vector<std::string>& items); // a, b and c
-std::string shell_quote(std::string_view word);               // as it is if harmless, else in single quotes
-std::vector<std::string> shell_split(std::string_view line);  // the words that shell_quote() made a line of
-std::string visible_text(std::string_view text);              // control characters as \x1b
+std::string rate_text(std::uint64_t rays, double seconds);     // 12.3 Mrays/s
+std::string color_text(const Color& color);                    // 0.5 1 nan
+std::string_view verdict_text(Verdict verdict);                // "not finite"
+std::string list_text(const std::vector<std::string>& items);  // a, b and c
+std::string lines_text(const std::vector<std::string>& items); // one a line, no line end after the last
+std::vector<std::string> lines_of(
+    std::string_view text);                     // the inverse, for items without line ends that are not empty
+std::string shell_quote(std::string_view word); // as it is if harmless, else in single quotes
+std::vector<std::string> shell_split(std::string_view line); // the words that shell_quote() made a line of
+std::string visible_text(std::string_view text);             // control characters as \x1b
 // Valid UTF-8: what is not becomes U+FFFD.
 std::string valid_utf8(std::string_view text);
 

@@ -120,6 +120,15 @@ Vec2i parse_pixel(std::string_view option, std::string_view text)
     return {(*values)[0], (*values)[1]};
 }
 
+std::pair<std::uint64_t, std::uint64_t> parse_part(std::string_view option, std::string_view text)
+{
+    const auto values = integers(text, '/', 2);
+    if (!values || (*values)[0] < 1 || (*values)[0] > (*values)[1])
+        throw UsageError(fmt::format("{} must be K/N, part K of N from 1/N to N/N and N at most {}, not '{}'",
+                                     option, max_side, text));
+    return {static_cast<std::uint64_t>((*values)[0]), static_cast<std::uint64_t>((*values)[1])};
+}
+
 PixelRect parse_rectangle(std::string_view option, std::string_view text)
 {
     const auto values = integers(text, ',', 4);

@@ -21,7 +21,9 @@ double parse_duration(std::string_view option, std::string_view text); // 90, 90
 std::vector<std::string> parse_list(std::string_view option, std::string_view text); // a,b,c
 Vec2i parse_size(std::string_view option, std::string_view text);                    // WxH
 Vec2i parse_pixel(std::string_view option, std::string_view text);                   // X,Y
-PixelRect parse_rectangle(std::string_view option, std::string_view text);           // X,Y,W,H
+// K/N, with 1 <= K <= N
+std::pair<std::uint64_t, std::uint64_t> parse_part(std::string_view option, std::string_view text);
+PixelRect parse_rectangle(std::string_view option, std::string_view text); // X,Y,W,H
 // One of the words, or an error that lists them.
 std::string parse_word(std::string_view option, std::string_view text,
                        const std::vector<std::string_view>& words);

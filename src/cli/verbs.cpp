@@ -22,6 +22,8 @@ constexpr VerbRow rows[] = {
      "scene file", 1, 1, replay_command},
     {Verb::rerun, "rerun", "IMAGE -o IMAGE [options]", "render a picture again from its header", "image", 1,
      1, rerun_command, rerun_manual},
+    {Verb::merge, "merge", "PART... [-o IMAGE]... [--checkpoint FILE]", "put parts of a picture together",
+     "part", 1, any_number, merge_command, merge_manual},
     {Verb::check, "check", "SCENE [options]", "say what is doubtful, without rendering", "scene file", 1, 1,
      check_command, check_manual},
     {Verb::compare, "compare", "A B [options]", "are two pictures the same but for noise?", "image", 2, 2,

@@ -2,6 +2,8 @@
 #include "compare/metrics.h"
 
 #include "plumb/error.h"
+#include "plumb/mean_and_variance.h"
+#include "plumb/statistics.h"
 
 #include <fmt/format.h>
 
@@ -76,10 +78,7 @@ std::optional<NoiseCorrected> correct_for_noise(const Picture& a, const Picture&
 {
     if (!a.knows_noise() || !b.knows_noise()) return {};
     const std::size_t channels = a.channels.size();
-    // Mean and variance of the pixels' errors (Welford 1962): their spread is what the interval follows from.
-    NoiseCorrected result;
-    double mean = 0.0;
-    double squares = 0.0;
+    MeanAndVariance errors; // of the pixels: their spread is what the interval follows from
     for (std::size_t i = 0; i < a.pixels(); ++i) {
         if (!a.is_finite(i) || !b.is_finite(i) || !a.variance_is_known(i) || !b.variance_is_known(i))
             continue;
@@ -89,16 +88,13 @@ std::optional<NoiseCorrected> correct_for_noise(const Picture& a, const Picture&
                 static_cast<double>(a.value(i, channel)) - static_cast<double>(b.value(i, channel));
             error += d * d - a.variance(i, channel) - b.variance(i, channel);
         }
-        error /= static_cast<double>(channels);
-        ++result.pixels;
-        const double delta = error - mean;
-        mean += delta / static_cast<double>(result.pixels);
-        squares += delta * (error - mean);
+        errors.add(error / static_cast<double>(channels));
     }
-    if (result.pixels < 2) return {};
-    const double count = static_cast<double>(result.pixels);
-    constexpr double z = 1.959963984540054; // the normal distribution has 95 % between -z and z
-    const double half_width = z * std::sqrt(squares / (count - 1.0) / count);
+    if (errors.count() < 2) return {};
+    const double mean = errors.mean();
+    const double half_width = normal_quantile_95 * errors.standard_error();
+    NoiseCorrected result;
+    result.pixels = errors.count();
     result.squared_error = mean;
     result.low = mean - half_width;
     result.high = mean + half_width;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "plumb/error.h"
 
+#include "core/lower_case.h"
+
 #include <algorithm>
-#include <cctype>
 
 namespace plumb {
 
@@ -106,11 +107,6 @@ std::string joined(const std::vector<Diagnostic>& diagnostics)
     return result;
 }
 
-char lower(char c)
-{
-    return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-}
-
 // Optimal string alignment: insertions, deletions, substitutions and swaps of neighbours, in three rows of the
 // table. Upper and lower case count as equal.
 std::size_t distance(std::string_view a, std::string_view b)
@@ -120,9 +116,11 @@ std::size_t distance(std::string_view a, std::string_view b)
     for (std::size_t i = 1; i <= a.size(); ++i) {
         current[0] = i;
         for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t substituted = previous[j - 1] + (lower(a[i - 1]) == lower(b[j - 1]) ? 0 : 1);
+            const std::size_t substituted =
+                previous[j - 1] + (lower_case(a[i - 1]) == lower_case(b[j - 1]) ? 0 : 1);
             current[j] = std::min({previous[j] + 1, current[j - 1] + 1, substituted});
-            if (i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) && lower(a[i - 2]) == lower(b[j - 1]))
+            if (i > 1 && j > 1 && lower_case(a[i - 1]) == lower_case(b[j - 2]) &&
+                lower_case(a[i - 2]) == lower_case(b[j - 1]))
                 current[j] = std::min(current[j], before[j - 2] + 1);
         }
         std::swap(before, previous);

@@ -2,6 +2,7 @@
 #include "core/parallel.h"
 #include "course_tests/statistic.h"
 #include "plumb/elementary.h"
+#include "plumb/mean_and_variance.h"
 #include "plumb/statistics.h"
 #include "scene/float_mode.h"
 

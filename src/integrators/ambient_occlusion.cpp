@@ -44,6 +44,7 @@ public:
     }
 
     std::string bias() const override { return "it shows how open surfaces lie, not light"; }
+    bool needs_lamps() const override { return false; }
 
 private:
     int samples_;

@@ -23,6 +23,7 @@ public:
     }
 
     std::string bias() const override { return "it shows distances, not light"; }
+    bool needs_lamps() const override { return false; }
 };
 
 template std::unique_ptr<Integrator> build<DepthIntegrator>(const Params&);

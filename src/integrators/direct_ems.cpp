@@ -2,7 +2,6 @@
 
 #include "integrators/path_estimator.h"
 #include "interfaces/plugin.h"
-#include "plumb/integrator.h"
 
 namespace plumb {
 
@@ -12,19 +11,11 @@ namespace plumb {
 /// No parameters.
 ///
 ///         <integrator type="direct_ems"/>
-class DirectEms final : public Integrator {
+class DirectEms final : public EstimatorIntegrator {
 public:
-    explicit DirectEms(const Params&) {}
-
-    Color radiance(Tracer& tracer, Sampler& sampler, const Ray& ray) const override
-    {
-        return estimator_.radiance(tracer, sampler, ray);
-    }
-
-    std::string bias() const override { return bias_of_depth(estimator_.max_depth()); }
-
-private:
-    PathEstimator estimator_ = PathEstimator::direct_light(PathEstimator::Finder::emitter_samples);
+    explicit DirectEms(const Params&)
+        : EstimatorIntegrator(PathEstimator::direct_light(PathEstimator::Finder::emitter_samples))
+    {}
 };
 
 template std::unique_ptr<Integrator> build<DirectEms>(const Params&);

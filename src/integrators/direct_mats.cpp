@@ -2,7 +2,6 @@
 
 #include "integrators/path_estimator.h"
 #include "interfaces/plugin.h"
-#include "plumb/integrator.h"
 
 namespace plumb {
 
@@ -11,19 +10,11 @@ namespace plumb {
 /// Point and directional lights, which no direction meets, are sampled directly. No parameters.
 ///
 ///         <integrator type="direct_mats"/>
-class DirectMats final : public Integrator {
+class DirectMats final : public EstimatorIntegrator {
 public:
-    explicit DirectMats(const Params&) {}
-
-    Color radiance(Tracer& tracer, Sampler& sampler, const Ray& ray) const override
-    {
-        return estimator_.radiance(tracer, sampler, ray);
-    }
-
-    std::string bias() const override { return bias_of_depth(estimator_.max_depth()); }
-
-private:
-    PathEstimator estimator_ = PathEstimator::direct_light(PathEstimator::Finder::path);
+    explicit DirectMats(const Params&)
+        : EstimatorIntegrator(PathEstimator::direct_light(PathEstimator::Finder::path))
+    {}
 };
 
 template std::unique_ptr<Integrator> build<DirectMats>(const Params&);

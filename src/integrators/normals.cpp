@@ -24,6 +24,7 @@ public:
     }
 
     std::string bias() const override { return "it shows normals, not light"; }
+    bool needs_lamps() const override { return false; }
 };
 
 template std::unique_ptr<Integrator> build<NormalsIntegrator>(const Params&);

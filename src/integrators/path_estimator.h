@@ -5,6 +5,7 @@
 
 #include "integrators/direct_light.h"
 #include "integrators/path_loop.h"
+#include "plumb/integrator.h"
 
 namespace plumb {
 
@@ -49,6 +50,22 @@ private:
     Finder finder_;
     PathLimits limits_;
     Heuristic heuristic_;
+};
+
+// An integrator that is no more than an estimator.
+class EstimatorIntegrator : public Integrator {
+public:
+    explicit EstimatorIntegrator(const PathEstimator& estimator) : estimator_(estimator) {}
+
+    Color radiance(Tracer& tracer, Sampler& sampler, const Ray& ray) const override
+    {
+        return estimator_.radiance(tracer, sampler, ray);
+    }
+
+    std::string bias() const override { return bias_of_depth(estimator_.max_depth()); }
+
+private:
+    PathEstimator estimator_;
 };
 
 } // namespace plumb

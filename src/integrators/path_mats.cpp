@@ -2,7 +2,6 @@
 
 #include "integrators/path_estimator.h"
 #include "interfaces/plugin.h"
-#include "plumb/integrator.h"
 
 namespace plumb {
 
@@ -12,19 +11,11 @@ namespace plumb {
 ///     rrDepth    integer   bounces before Russian roulette starts   (default 3)
 ///
 ///         <integrator type="path_mats"/>
-class PathMats final : public Integrator {
+class PathMats final : public EstimatorIntegrator {
 public:
-    explicit PathMats(const Params& params) : estimator_(PathEstimator::Finder::path, PathLimits(params)) {}
-
-    Color radiance(Tracer& tracer, Sampler& sampler, const Ray& ray) const override
-    {
-        return estimator_.radiance(tracer, sampler, ray);
-    }
-
-    std::string bias() const override { return bias_of_depth(estimator_.max_depth()); }
-
-private:
-    PathEstimator estimator_;
+    explicit PathMats(const Params& params)
+        : EstimatorIntegrator(PathEstimator(PathEstimator::Finder::path, PathLimits(params)))
+    {}
 };
 
 template std::unique_ptr<Integrator> build<PathMats>(const Params&);

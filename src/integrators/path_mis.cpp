@@ -4,7 +4,6 @@
 
 #include "integrators/path_estimator.h"
 #include "interfaces/plugin.h"
-#include "plumb/integrator.h"
 
 namespace plumb {
 
@@ -21,21 +20,12 @@ namespace plumb {
 ///         <integrator type="path_mis">
 ///             <string name="heuristic" value="balance"/>
 ///         </integrator>
-class PathMis final : public Integrator {
+class PathMis final : public EstimatorIntegrator {
 public:
     explicit PathMis(const Params& params)
-        : estimator_(PathEstimator::Finder::both, PathLimits(params), heuristic_of(params))
+        : EstimatorIntegrator(
+              PathEstimator(PathEstimator::Finder::both, PathLimits(params), heuristic_of(params)))
     {}
-
-    Color radiance(Tracer& tracer, Sampler& sampler, const Ray& ray) const override
-    {
-        return estimator_.radiance(tracer, sampler, ray);
-    }
-
-    std::string bias() const override { return bias_of_depth(estimator_.max_depth()); }
-
-private:
-    PathEstimator estimator_;
 };
 
 template std::unique_ptr<Integrator> build<PathMis>(const Params&);

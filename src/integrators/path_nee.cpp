@@ -2,7 +2,6 @@
 
 #include "integrators/path_estimator.h"
 #include "interfaces/plugin.h"
-#include "plumb/integrator.h"
 
 namespace plumb {
 
@@ -15,21 +14,11 @@ namespace plumb {
 ///     rrDepth    integer   bounces before Russian roulette starts   (default 3)
 ///
 ///         <integrator type="path_nee"/>
-class PathNee final : public Integrator {
+class PathNee final : public EstimatorIntegrator {
 public:
     explicit PathNee(const Params& params)
-        : estimator_(PathEstimator::Finder::emitter_samples, PathLimits(params))
+        : EstimatorIntegrator(PathEstimator(PathEstimator::Finder::emitter_samples, PathLimits(params)))
     {}
-
-    Color radiance(Tracer& tracer, Sampler& sampler, const Ray& ray) const override
-    {
-        return estimator_.radiance(tracer, sampler, ray);
-    }
-
-    std::string bias() const override { return bias_of_depth(estimator_.max_depth()); }
-
-private:
-    PathEstimator estimator_;
 };
 
 template std::unique_ptr<Integrator> build<PathNee>(const Params&);

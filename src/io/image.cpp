@@ -6,6 +6,7 @@
 
 #include "io/image_png.h"
 #include "io/image_quiet.h"
+#include "io/image_spec.h"
 #include "io/image_text.h"
 #include "plumb/error.h"
 
@@ -130,25 +131,6 @@ Color Image::color(int x, int y) const
 
 namespace {
 
-Metadata metadata_of(const OIIO::ImageSpec& spec)
-{
-    Metadata metadata;
-    for (const OIIO::ParamValue& value : spec.extra_attribs) {
-        const std::string name = value.name().string();
-        const OIIO::TypeDesc type = value.type();
-        const auto* const floats = static_cast<const float*>(value.data());
-        if (type == OIIO::TypeInt)
-            metadata.emplace_back(name, value.get_int());
-        else if (type == OIIO::TypeFloat)
-            metadata.emplace_back(name, value.get_float());
-        else if (type == OIIO::TypeString)
-            metadata.emplace_back(name, value.get_string());
-        else if (type.basetype == OIIO::TypeDesc::FLOAT && type.numelements() > 0)
-            metadata.emplace_back(name, std::vector<float>(floats, floats + type.basevalues()));
-    }
-    return metadata;
-}
-
 // value[i] = i / (size - 1), through the sRGB curve if asked.
 std::vector<float> integer_values(std::size_t size, bool decode_srgb)
 {
@@ -175,16 +157,6 @@ void convert_integers(float* pixels, std::size_t count, const OIIO::ImageSpec& s
     }
 }
 
-std::unique_ptr<OIIO::ImageInput> open(const std::string& name)
-{
-    OIIO::attribute("debug", 0); // never print
-    OIIO::ImageSpec hints;
-    hints.attribute("oiio:UnassociatedAlpha", 1); // colours as they are in the file, not multiplied by alpha
-    std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(name, &hints);
-    if (!input) throw Error(one_line(OIIO::geterror()));
-    return input;
-}
-
 } // namespace
 
 Image read_image(const std::filesystem::path& path, bool decode_srgb)
@@ -193,16 +165,12 @@ Image read_image(const std::filesystem::path& path, bool decode_srgb)
     const auto fail = [&name](std::string reason) -> Error {
         return Error(fmt::format("cannot read '{}': {}", name, reason.empty() ? "not a picture" : reason));
     };
-    std::error_code error;
-    const std::filesystem::file_status status = std::filesystem::status(path, error);
-    if (!std::filesystem::exists(status)) throw fail("no such file");
-    if (std::filesystem::is_directory(status)) throw fail("it is a folder");
-    if (!std::filesystem::is_regular_file(status))
-        throw fail("it is a device, a pipe or the like, not a file");
+    if (const std::string_view problem = problem_of_file(path); !problem.empty())
+        throw fail(std::string(problem));
     if (is_truncated_png(path)) throw fail("the file ends early");
     try {
         const QuietStandardError quiet;
-        const std::unique_ptr<OIIO::ImageInput> input = open(name);
+        const std::unique_ptr<OIIO::ImageInput> input = open_image(name);
         const OIIO::ImageSpec spec = input->spec();
         if (spec.deep) throw Error("pictures with deep pixels are not supported");
         if (spec.depth > 1) throw Error("volumes are not supported");

@@ -2,22 +2,20 @@
 
 // Writing pictures.
 
-#include "io/image_quiet.h"
+#include "core/lower_case.h"
+#include "io/image_spec.h"
 #include "io/image_text.h"
+#include "io/temporary_file.h"
 #include "plumb/error.h"
 #include "plumb/image.h"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <new>
 #include <span>
 #include <unistd.h>
-#include <utility>
 
 namespace plumb {
 
@@ -46,9 +44,7 @@ constexpr Format formats[] = {
 
 const Format& format_of(const std::filesystem::path& path)
 {
-    std::string extension = path.extension().string();
-    for (char& c : extension)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    const std::string extension = lower_case(path.extension().string());
     std::string known;
     for (const Format& format : formats) {
         if (format.extension == extension) return format;
@@ -57,48 +53,6 @@ const Format& format_of(const std::filesystem::path& path)
     if (extension.empty()) fail(path, fmt::format("the name has no extension; known are {}", known));
     fail(path, fmt::format("unknown extension '{}'; known are {}", path.extension().string(), known));
 }
-
-// A new, empty file beside `path`; gone again when this goes, unless it took path's place.
-class TemporaryFile {
-public:
-    explicit TemporaryFile(const std::filesystem::path& path) : target_(path)
-    {
-        constexpr int attempts = 1000;
-        for (int i = 0; i < attempts; ++i) {
-            name_ = path;
-            name_.replace_filename(fmt::format(".{}.part{}", path.filename().string(), i));
-            file_ = std::fopen(name_.c_str(), "wbx"); // x: fails if the file exists
-            if (file_) return;
-            if (errno != EEXIST) break;
-        }
-        fail(target_, std::strerror(errno));
-    }
-    TemporaryFile(const TemporaryFile&) = delete;
-    TemporaryFile& operator=(const TemporaryFile&) = delete;
-    ~TemporaryFile()
-    {
-        if (file_) std::fclose(file_);
-        if (!took_place_) std::remove(name_.c_str());
-    }
-
-    void write(std::span<const unsigned char> bytes)
-    {
-        const bool good = std::fwrite(bytes.data(), 1, bytes.size(), file_) == bytes.size();
-        if (!good || std::fclose(std::exchange(file_, nullptr)) != 0) fail(target_, std::strerror(errno));
-    }
-
-    void take_place()
-    {
-        if (std::rename(name_.c_str(), target_.c_str()) != 0) fail(target_, std::strerror(errno));
-        took_place_ = true;
-    }
-
-private:
-    std::filesystem::path target_;
-    std::filesystem::path name_;
-    std::FILE* file_ = nullptr;
-    bool took_place_ = false;
-};
 
 // Error bars go into formats that hold any channel. They come last.
 int channels_written(const Image& image, const Format& format)
@@ -121,22 +75,7 @@ OIIO::ImageSpec spec_of(const Image& image, const Format& format)
         spec.full_width = image.full_width();
         spec.full_height = image.full_height();
     }
-    for (const auto& [name, value] : image.metadata) {
-        if (const int* const integer = std::get_if<int>(&value)) {
-            spec.attribute(name, *integer);
-        } else if (const float* const number = std::get_if<float>(&value)) {
-            spec.attribute(name, *number);
-        } else if (const std::string* const text = std::get_if<std::string>(&value)) {
-            spec.attribute(name, *text);
-        } else {
-            const auto& floats = std::get<std::vector<float>>(value);
-            OIIO::TypeDesc type(OIIO::TypeDesc::FLOAT, static_cast<int>(floats.size()));
-            if (floats.size() == 16) type = OIIO::TypeMatrix;
-            if (!floats.empty()) spec.attribute(name, type, floats.data());
-        }
-    }
-    // OpenImageIO adds the time of day unless there is a DateTime, and leaves out one that is no text.
-    spec.attribute("DateTime", 0);
+    put_metadata(spec, image.metadata);
     spec.attribute("oiio:ColorSpace", is_float ? "Linear" : "sRGB");
     if (!format.compression.empty()) spec.attribute("compression", std::string(format.compression));
     if (format.extension.starts_with(".jp")) spec.attribute("jpeg:subsampling", "4:4:4");
@@ -160,31 +99,21 @@ std::vector<std::uint8_t> encode_srgb(const Image& image, int channels, float ex
     return bytes;
 }
 
-// What the file will hold. Encoded in memory and written by us, because libjpeg ends the process if it cannot write.
+// What the file will hold.
 std::vector<unsigned char> encode(const std::string& name, const Image& image, const Format& format,
                                   float exposure)
 {
-    OIIO::attribute("debug", 0); // never print
-    const QuietStandardError quiet;
-    const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(name);
-    if (!output) throw Error(OIIO::geterror());
-    std::vector<unsigned char> file;
-    OIIO::Filesystem::IOVecOutput memory(file);
-    bool good = output->set_ioproxy(&memory) && output->open(name, spec_of(image, format));
-    if (good && format.encoding == Encoding::linear_float) {
+    return encode_image(name, spec_of(image, format), [&](OIIO::ImageOutput& output) {
+        if (format.encoding == Encoding::srgb_8bit) {
+            const std::vector<std::uint8_t> bytes =
+                encode_srgb(image, channels_written(image, format), exposure);
+            return output.write_image(OIIO::TypeUInt8, bytes.data());
+        }
         const PixelRect& data = image.data_window();
         const auto stride =
             static_cast<OIIO::stride_t>(sizeof(float)) * image.channel_count(); // from pixel to pixel
-        good = output->write_image(OIIO::TypeFloat, image.pixel(data.x, data.y), stride);
-    } else if (good) {
-        const std::vector<std::uint8_t> bytes = encode_srgb(image, channels_written(image, format), exposure);
-        good = output->write_image(OIIO::TypeUInt8, bytes.data());
-    }
-    std::string reason = output->geterror();
-    good = output->close() && good;
-    reason += output->geterror(); // fetched in any case: what is not would be printed
-    if (!good) throw Error(reason.empty() ? "this format cannot hold the picture" : reason);
-    return file;
+        return output.write_image(OIIO::TypeFloat, image.pixel(data.x, data.y), stride);
+    });
 }
 
 } // namespace
@@ -217,7 +146,7 @@ void write_image(const std::filesystem::path& path, const Image& image, float ex
     } catch (const std::exception& error) { // ours, and whatever OpenImageIO lets through
         fail(path, one_line(error.what()));
     }
-    file.write(bytes);
+    file.write(std::span<const unsigned char>(bytes));
     file.take_place();
 }
 

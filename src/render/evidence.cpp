@@ -2,6 +2,8 @@
 
 #include "plumb/evidence.h"
 
+#include "plumb/statistics.h"
+
 #include <fmt/format.h>
 
 namespace plumb {
@@ -25,19 +27,33 @@ std::optional<NoiseEstimate> estimate_noise(const Film& film)
     }
     const double squared_error = sum / pixels;
     const double spread = std::max(sum_of_squares / pixels - sqr(squared_error), 0.0);
-    constexpr double normal_quantile = 1.959963984540054; // of 0.975
-    const double margin = normal_quantile * std::sqrt(spread / pixels);
+    const double margin = normal_quantile_95 * std::sqrt(spread / pixels);
     return NoiseEstimate{std::sqrt(squared_error), std::sqrt(std::max(squared_error - margin, 0.0)),
                          std::sqrt(squared_error + margin)};
 }
 
-Ledger make_ledger(const RenderJob& job, const Dialect& dialect, const RenderResult& result)
+std::optional<NoiseEstimate> estimate_relative_noise(const Film& film)
+{
+    std::optional<NoiseEstimate> noise = estimate_noise(film);
+    if (!noise) return std::nullopt;
+    const Image picture = film.develop();
+    const PixelRect& window = film.window();
+    double sum = 0.0;
+    for (int y = window.y; y < window.y + window.height; ++y) {
+        for (int x = window.x; x < window.x + window.width; ++x) {
+            const Color color = picture.color(x, y);
+            sum += static_cast<double>(color.r) + static_cast<double>(color.g) + static_cast<double>(color.b);
+        }
+    }
+    const double mean = sum / (3.0 * static_cast<double>(window.width) * static_cast<double>(window.height));
+    if (!(mean > 0.0)) return std::nullopt;
+    return NoiseEstimate{noise->rmse / mean, noise->low / mean, noise->high / mean};
+}
+
+Ledger make_ledger(const RenderJob& job, const Dialect& dialect)
 {
     Ledger ledger;
     if (std::string bias = job.integrator->bias(); !bias.empty()) ledger.biases.push_back(std::move(bias));
-    if (result.left_out.count > 0)
-        ledger.biases.push_back(fmt::format("{} samples were left out", result.left_out.count));
-
     if (dialect.emitters_absorb) ledger.model.emplace_back("emitters absorb the light that meets them");
     if (dialect.mirrored_view) ledger.model.emplace_back("the view is mirrored");
     if (dialect.point_takes_power) ledger.model.emplace_back("the power of point lights is in watts");
@@ -46,6 +62,25 @@ Ledger make_ledger(const RenderJob& job, const Dialect& dialect, const RenderRes
         ledger.model.push_back(
             fmt::format("environment images are multiplied by {}", dialect.environment_scale));
     return ledger;
+}
+
+Evidence make_evidence(Ledger before, const RenderState& state, const std::string& stop)
+{
+    const PixelRect& window = state.film.window();
+    Evidence evidence{std::move(before),
+                      estimate_noise(state.film),
+                      state.left_out,
+                      state.taken.samples_per_pixel(window).least,
+                      state.taken,
+                      true,
+                      stop};
+    evidence.even = state.taken == SampleSet(SampleBlock{window, 0, evidence.samples_per_pixel});
+    std::vector<std::string>& biases = evidence.ledger.biases;
+    if (state.left_out.count > 0)
+        biases.push_back(fmt::format("{} samples were left out", state.left_out.count));
+    if (!stop.empty() && stop != interruption) biases.push_back(stop);
+    if (evidence.samples_per_pixel == 0) biases.emplace_back("some pixels have no samples and are black");
+    return evidence;
 }
 
 } // namespace plumb

@@ -24,6 +24,19 @@ constexpr float large = 0x1p18f;
 constexpr double large_unit = 0x1p-20;
 constexpr double large_units_per_one = 0x1p20;
 
+void put(std::uint32_t* words, Int128 number)
+{
+    for (int i = 0; i < 4; ++i) words[i] = static_cast<std::uint32_t>(number >> (32 * i));
+}
+
+Int128 get(const std::uint32_t* words)
+{
+    __extension__ typedef unsigned __int128 Unsigned;
+    Unsigned number = 0;
+    for (int i = 0; i < 4; ++i) number |= Unsigned{words[i]} << (32 * i);
+    return static_cast<Int128>(number);
+}
+
 // To the nearest unit. Numbers of 2^62 units and more are whole numbers of units: floats have 24 bits, their squares 48.
 Int128 to_fixed(double units)
 {
@@ -156,6 +169,68 @@ Image Film::develop(Channels channels) const
         }
     }
     return image;
+}
+
+Film& Film::operator+=(const Film& other)
+{
+    for (std::size_t i = 0; i < pixels_.size(); ++i) {
+        Pixel& mine = pixels_[i];
+        const Pixel& theirs = other.pixels_[i];
+        for (int c = 0; c < 3; ++c) {
+            mine.sum[c] += theirs.sum[c];
+            mine.squares[c] += theirs.squares[c];
+        }
+        mine.count += theirs.count;
+        mine.contributing += theirs.contributing;
+    }
+    for (const auto& [pixel, squares] : other.large_squares_->of_pixel)
+        for (std::size_t c = 0; c < 3; ++c) large_squares_->of_pixel[pixel][c] += squares[c];
+    return *this;
+}
+
+Film::Words Film::words(Vec2i pixel) const
+{
+    const Pixel& p = pixels_[index(pixel)];
+    Words words{};
+    for (std::size_t c = 0; c < 3; ++c) {
+        put(&words[4 * c], p.sum[c]);
+        put(&words[12 + 4 * c], p.squares[c]);
+    }
+    words[24] = p.count;
+    words[25] = p.contributing;
+    return words;
+}
+
+void Film::set_words(Vec2i pixel, const Words& words)
+{
+    Pixel& p = pixels_[index(pixel)];
+    for (std::size_t c = 0; c < 3; ++c) {
+        p.sum[c] = get(&words[4 * c]);
+        p.squares[c] = get(&words[12 + 4 * c]);
+    }
+    p.count = words[24];
+    p.contributing = words[25];
+}
+
+bool Film::has_large_squares() const
+{
+    return !large_squares_->of_pixel.empty();
+}
+
+Film::LargeWords Film::large_words(Vec2i pixel) const
+{
+    LargeWords words{};
+    const auto found = large_squares_->of_pixel.find(index(pixel));
+    if (found != large_squares_->of_pixel.end())
+        for (std::size_t c = 0; c < 3; ++c) put(&words[4 * c], found->second[c]);
+    return words;
+}
+
+void Film::set_large_words(Vec2i pixel, const LargeWords& words)
+{
+    large_squares_->of_pixel.erase(index(pixel));
+    if (words == LargeWords{}) return;
+    for (std::size_t c = 0; c < 3; ++c) large_squares_->of_pixel[index(pixel)][c] = get(&words[4 * c]);
 }
 
 } // namespace plumb

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 
-// The only user of oneTBB.
-
 #include "plumb/render.h"
 
+#include "core/parallel.h"
 #include "plumb/error.h"
 #include "render/tiles.h"
 #include "scene/float_mode.h"
@@ -14,12 +13,8 @@
 #include <tuple>
 
 #include <fmt/format.h>
-#include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/enumerable_thread_specific.h>
-#include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
 
 namespace plumb {
 namespace {
@@ -60,32 +55,12 @@ struct Worker {
     LeftOut left_out;
 };
 
-PixelRect checked_window(const RenderJob& job, const RenderOptions& options)
-{
-    const Vec2i size = job.camera->resolution();
-    const PixelRect whole{0, 0, size.x, size.y};
-    if (!options.crop) return whole;
-    const PixelRect& c = *options.crop;
-    if (c.width < 1 || c.height < 1 || c.x < 0 || c.y < 0 || c.x > size.x - c.width ||
-        c.y > size.y - c.height)
-        throw Error(fmt::format("the crop {},{},{},{} is not inside the picture of {}x{} pixels", c.x, c.y,
-                                c.width, c.height, size.x, size.y));
-    return c;
-}
-
-std::uint64_t checked_samples(const RenderJob& job, const RenderOptions& options)
-{
-    const std::uint64_t samples =
-        options.samples_per_pixel != 0 ? options.samples_per_pixel : job.sampler->samples_per_pixel();
-    if (samples < 1 || samples > film_max_samples)
-        throw Error(fmt::format("samples per pixel must be from 1 to {}, not {}", film_max_samples, samples));
-    return samples;
-}
-
 // One line of the picture's progress at a time, whichever thread is free to report it.
 class Reporter {
 public:
-    Reporter(const ProgressReport& report, std::uint64_t total) : report_(report), total_(total) {}
+    Reporter(const ProgressReport& report, std::uint64_t before, std::uint64_t total)
+        : report_(report), before_(before), total_(total), done_(before)
+    {}
 
     void add(std::uint64_t samples, std::uint64_t rays)
     {
@@ -93,19 +68,40 @@ public:
         rays_ += rays;
         if (!report_) return;
         const std::unique_lock lock(mutex_, std::try_to_lock);
-        if (lock) report_({done_, total_, rays_, seconds()});
+        if (lock) report_({done_, total_, before_, rays_, seconds()});
     }
 
     double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
 private:
     const ProgressReport& report_;
+    const std::uint64_t before_;
     const std::uint64_t total_;
     const Clock::time_point start_ = Clock::now();
-    std::atomic<std::uint64_t> done_ = 0;
+    std::atomic<std::uint64_t> done_;
     std::atomic<std::uint64_t> rays_ = 0;
     std::mutex mutex_;
 };
+
+// The samples from `first` to before `last` of a set, as blocks of one tile each.
+std::vector<SampleBlock> cut_into_work(const SampleSet& set, std::uint64_t first, std::uint64_t last,
+                                       int tile_size)
+{
+    std::vector<SampleBlock> work;
+    for (const SampleBlock& block : set.blocks()) {
+        const SampleBlock slice{block.pixels, std::max(block.first, first), std::min(block.last, last)};
+        if (slice.empty()) continue;
+        for (const PixelRect& tile : cut_into_tiles(slice.pixels, tile_size))
+            work.push_back({tile, slice.first, slice.last});
+    }
+    return work;
+}
+
+RenderState nothing_taken(const RenderJob& job, const RenderOptions& options)
+{
+    const Vec2i size = job.camera->resolution();
+    return {Film(render_window(job, options), size.x, size.y), {}, {}, {}};
+}
 
 } // namespace
 
@@ -124,55 +120,112 @@ LeftOut& LeftOut::operator+=(const LeftOut& other)
     return *this;
 }
 
-RenderResult render(const RenderJob& job, const RenderOptions& options, const ProgressReport& progress)
+RenderState& RenderState::operator+=(const RenderState& other)
 {
-    const PixelRect window = checked_window(job, options);
-    const std::uint64_t samples = checked_samples(job, options);
-    const int threads = options.threads > 0 ? options.threads : oneapi::tbb::info::default_concurrency();
-    const std::vector<PixelRect> tiles = cut_into_tiles(window, options.tile_size);
+    film += other.film;
+    taken = taken | other.taken;
+    rays += other.rays;
+    left_out += other.left_out;
+    seconds += other.seconds;
+    return *this;
+}
+
+PixelRect render_window(const RenderJob& job, const RenderOptions& options)
+{
     const Vec2i size = job.camera->resolution();
-    RenderResult result{Film(window, size.x, size.y), {}, {}, 0.0, threads};
+    const PixelRect whole{0, 0, size.x, size.y};
+    if (!options.crop) return whole;
+    const PixelRect& c = *options.crop;
+    if (c.width < 1 || c.height < 1 || c.x < 0 || c.y < 0 || c.x > size.x - c.width ||
+        c.y > size.y - c.height)
+        throw Error(fmt::format("the crop {},{},{},{} is not inside the picture of {}x{} pixels", c.x, c.y,
+                                c.width, c.height, size.x, size.y));
+    return c;
+}
 
-    Reporter reporter(progress, samples * static_cast<std::uint64_t>(window.width) *
-                                    static_cast<std::uint64_t>(window.height));
-    oneapi::tbb::enumerable_thread_specific<Worker> workers([&] { return Worker(job); });
+std::uint64_t render_samples(const RenderJob& job, const RenderOptions& options)
+{
+    const std::uint64_t samples =
+        options.samples_per_pixel != 0 ? options.samples_per_pixel : job.sampler->samples_per_pixel();
+    if (samples < 1 || samples > film_max_samples)
+        throw Error(fmt::format("samples per pixel must be from 1 to {}, not {}", film_max_samples, samples));
+    return samples;
+}
 
-    const auto render_tile = [&](const PixelRect& tile, std::uint64_t first, std::uint64_t last) {
+int render_threads(const RenderOptions& options)
+{
+    return options.threads > 0 ? options.threads : oneapi::tbb::info::default_concurrency();
+}
+
+Rendering::Rendering(const RenderJob& job, const RenderOptions& options)
+    : Rendering(job, options, nothing_taken(job, options))
+{}
+
+Rendering::Rendering(const RenderJob& job, const RenderOptions& options, RenderState state)
+    : job_(job), options_(options), state_(std::move(state))
+{}
+
+bool Rendering::take(const SampleSet& wanted, const ProgressReport& progress, const Pause& pause)
+{
+    const SampleSet missing = wanted - state_.taken;
+    std::uint64_t first = max_samples_per_pixel;
+    std::uint64_t end = 0;
+    for (const SampleBlock& block : missing.blocks()) {
+        first = std::min(first, block.first);
+        end = std::max(end, block.last);
+    }
+    Reporter reporter(progress, (wanted & state_.taken).count(), wanted.count());
+    oneapi::tbb::enumerable_thread_specific<Worker> workers([&] { return Worker(job_); });
+    std::atomic<bool> paused = false;
+
+    // How much of the block was done: its first rows.
+    const auto take_block = [&](const SampleBlock& block) {
         const FlushDenormals flush;
         Worker& worker = workers.local();
         const std::uint64_t rays_before = worker.tracer.counts().total();
+        const PixelRect& tile = block.pixels;
+        SampleBlock done = block;
         for (int y = tile.y; y < tile.y + tile.height; ++y) {
+            done.pixels.height = y - tile.y;
+            if (pause && (paused || pause())) {
+                paused = true;
+                break;
+            }
             for (int x = tile.x; x < tile.x + tile.width; ++x) {
-                for (std::uint64_t index = first; index < last; ++index) {
+                for (std::uint64_t index = block.first; index < block.last; ++index) {
                     const SampleTaken sample =
-                        take_sample(job, worker.tracer, *worker.sampler, options.seed, {x, y}, index);
-                    const Verdict verdict = result.film.add({x, y}, sample.radiance, sample.weight);
+                        take_sample(job_, worker.tracer, *worker.sampler, options_.seed, {x, y}, index);
+                    const Verdict verdict = state_.film.add({x, y}, sample.radiance, sample.weight);
                     if (verdict != Verdict::accepted)
                         worker.left_out.add({{x, y}, index, sample.radiance, verdict});
                 }
             }
+            done.pixels.height = y - tile.y + 1;
         }
-        const auto pixels = static_cast<std::uint64_t>(tile.width) * static_cast<std::uint64_t>(tile.height);
-        reporter.add(pixels * (last - first), worker.tracer.counts().total() - rays_before);
+        reporter.add(done.count(), worker.tracer.counts().total() - rays_before);
+        return done;
     };
 
-    const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism,
-                                            static_cast<std::size_t>(threads));
-    oneapi::tbb::task_arena arena(threads);
-    arena.execute([&] {
-        for (std::uint64_t first = 0; first < samples; first += samples_per_pass) {
-            const std::uint64_t last = std::min(samples, first + samples_per_pass);
-            oneapi::tbb::parallel_for(std::size_t{0}, tiles.size(),
-                                      [&](std::size_t i) { render_tile(tiles[i], first, last); });
-        }
-    });
-
-    for (const Worker& worker : workers) {
-        result.rays += worker.tracer.counts();
-        result.left_out += worker.left_out;
+    for (; first < end && !paused; first += samples_per_pass) {
+        std::vector<SampleBlock> work =
+            cut_into_work(missing, first, first + samples_per_pass, options_.tile_size);
+        parallel_for(work.size(), options_.threads, [&](std::size_t i) { work[i] = take_block(work[i]); });
+        state_.taken = state_.taken | SampleSet(work);
     }
-    result.seconds = reporter.seconds();
-    return result;
+    for (const Worker& worker : workers) {
+        state_.rays += worker.tracer.counts();
+        state_.left_out += worker.left_out;
+    }
+    state_.seconds += reporter.seconds();
+    return !paused;
+}
+
+RenderState render(const RenderJob& job, const RenderOptions& options, const ProgressReport& progress)
+{
+    Rendering rendering(job, options);
+    rendering.take(SampleSet(SampleBlock{render_window(job, options), 0, render_samples(job, options)}),
+                   progress);
+    return std::move(rendering).finish();
 }
 
 ReplayedSample replay(const RenderJob& job, std::uint64_t seed, Vec2i pixel, std::uint64_t sample_index)

@@ -277,4 +277,18 @@ SceneParts build_scene(const Element& root, const LoadOptions& options, LoadCont
     return SceneBuilder(root, options, context).build();
 }
 
+std::optional<RenderJob> assemble(SceneParts parts, const LoadOptions& options, LoadContext& context)
+{
+    Scene scene(std::move(parts.objects), std::move(parts.lights),
+                {context.dialect.emitters_absorb, options.instruction_set});
+    try {
+        parts.integrator->prepare(scene);
+    } catch (const Error& error) {
+        context.diagnostics.error(parts.integrator_at, error.what());
+        return std::nullopt;
+    }
+    return RenderJob{std::move(scene), std::move(parts.camera), std::move(parts.integrator),
+                     std::move(parts.sampler), std::move(parts.filter)};
+}
+
 } // namespace plumb

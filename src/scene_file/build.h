@@ -23,4 +23,8 @@ struct SceneParts {
 // root: a <scene>, expanded. Parts are null only where `context.diagnostics` has errors.
 SceneParts build_scene(const Element& root, const LoadOptions& options, LoadContext& context);
 
+// What the parts make, all that are there, ready to be rendered. Nothing, and an error in `context.diagnostics`, if the
+// integrator cannot render the scene.
+std::optional<RenderJob> assemble(SceneParts parts, const LoadOptions& options, LoadContext& context);
+
 } // namespace plumb

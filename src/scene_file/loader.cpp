@@ -109,19 +109,14 @@ LoadedScene load_scene(const std::filesystem::path& path, const LoadOptions& opt
 
     // The objects become a scene.
     const auto build_start = Clock::now();
-    Scene scene(std::move(parts.objects), std::move(parts.lights),
-                {dialect.emitters_absorb, options.instruction_set});
-    try {
-        parts.integrator->prepare(scene);
-    } catch (const Error& error) {
-        diagnostics.error(parts.integrator_at, error.what());
-        fail(diagnostics, expansion.files);
-    }
-    return {.job = {std::move(scene), std::move(parts.camera), std::move(parts.integrator),
-                    std::move(parts.sampler), std::move(parts.filter)},
+    std::string integrator = std::move(parts.integrator_type);
+    std::string sampler = std::move(parts.sampler_type);
+    std::optional<RenderJob> job = assemble(std::move(parts), options, context);
+    if (!job) fail(diagnostics, expansion.files);
+    return {.job = *std::move(job),
             .dialect = dialect,
-            .integrator = std::move(parts.integrator_type),
-            .sampler = std::move(parts.sampler_type),
+            .integrator = std::move(integrator),
+            .sampler = std::move(sampler),
             .inputs = std::move(inputs),
             .input_hash = std::move(hash),
             .warnings = in_file_order(diagnostics.all(), expansion.files),

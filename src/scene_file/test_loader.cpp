@@ -180,18 +180,9 @@ private:
         LoadContext context{diagnostics_, dialect, options_.lenient, {}};
         SceneParts parts = build_scene(element, options_, context);
         if (diagnostics_.has_errors()) return;
-        Scene scene(std::move(parts.objects), std::move(parts.lights),
-                    {dialect.emitters_absorb, options_.instruction_set});
-        try {
-            parts.integrator->prepare(scene);
-        } catch (const Error& error) {
-            diagnostics_.error(parts.integrator_at, error.what());
-            return;
-        }
-        test_.scenes.push_back({{std::move(scene), std::move(parts.camera), std::move(parts.integrator),
-                                 std::move(parts.sampler), std::move(parts.filter)},
-                                dialect,
-                                fmt::format("{}, {}", element_name(element, root_), parts.integrator_type)});
+        const std::string name = fmt::format("{}, {}", element_name(element, root_), parts.integrator_type);
+        if (auto job = assemble(std::move(parts), options_, context))
+            test_.scenes.push_back({*std::move(job), dialect, name});
     }
 
     // --- The whole ---

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "scene_file/values.h"
 
+#include "core/lower_case.h"
+
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 
 #include <fmt/format.h>
@@ -161,9 +162,7 @@ std::optional<std::vector<double>> read_number_list(const Element& element, cons
 
 std::optional<bool> read_boolean(const Element& element, const Attribute& attribute, Diagnostics& diagnostics)
 {
-    std::string word(trimmed(attribute.value).text);
-    std::transform(word.begin(), word.end(), word.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string word = lower_case(std::string(trimmed(attribute.value).text));
     if (word == "true") return true;
     if (word == "false") return false;
     return ValueReader(element, attribute, diagnostics)

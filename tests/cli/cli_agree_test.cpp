@@ -66,6 +66,32 @@ TEST_CASE("too few samples decide nothing", "[cli][agree]")
     const RunResult run = folder.run({"agree", "scene.xml", "--spp", "2", "--size", "12x9"});
     CHECK(run.exit_code == 4);
     CHECK_THAT(run.out, ContainsSubstring("undecided; what is wrong in all of them alike"));
+    CHECK_THAT(run.out, ContainsSubstring("\nmore samples may decide it\n"));
+}
+
+TEST_CASE("an estimator that rarely finds the lamp is named", "[cli][agree]")
+{
+    std::string scene = easy_scene;
+    const std::string large = R"(<float name="radius" value="2"/>
+    <emitter type="area"><color name="radiance" value="1,1,1"/>)";
+    REQUIRE(scene.find(large) != std::string::npos);
+    scene.replace(scene.find(large), large.size(), R"(<float name="radius" value="0.02"/>
+    <emitter type="area"><color name="radiance" value="9999,9999,9999"/>)");
+    const SceneFolder folder;
+    folder.write("small.xml", scene);
+    const RunResult run = folder.run({"agree", "small.xml", "--json", "a.json"});
+    INFO(run.out << run.err);
+    CHECK(run.exit_code == 4);
+    CHECK_THAT(run.out, ContainsSubstring("  path_nee and path_mis: agree, p "));
+    CHECK_THAT(run.out, ContainsSubstring("\nmore samples may decide it; or leave out path, which finds some "
+                                          "of the light too rarely\n"));
+    CHECK_THAT(read_bytes(folder / "a.json"),
+               ContainsSubstring("\"reason\": \"432 of 432 pixels lie in no "));
+    CHECK(folder.run({"agree", "small.xml", "--integrators", "path_nee,path_mis"}).exit_code == 0);
+
+    const RunResult tolerant = folder.run({"agree", "small.xml", "--fail-percent", "100"});
+    CHECK(tolerant.exit_code == 0);
+    CHECK_THAT(tolerant.out, ContainsSubstring(" (0 of 432 pixels differ, 432 are undecided)\n"));
 }
 
 TEST_CASE("agree takes a time instead of a number of samples", "[cli][agree]")

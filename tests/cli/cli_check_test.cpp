@@ -25,9 +25,9 @@ std::string cube(bool inside_out)
 }
 
 // With a sun, a camera at (0, 0, -5) that looks along z, and `more`.
-std::string scene(const std::string& more)
+std::string scene(const std::string& more, const std::string& integrator = "path_mis")
 {
-    return R"(<scene dialect="plumb"><integrator type="path_mis"/>
+    return R"(<scene dialect="plumb"><integrator type=")" + integrator + R"("/>
   <camera type="perspective"><integer name="width" value="40"/><integer name="height" value="30"/>
     <transform name="toWorld"><lookat origin="0,0,-5" target="0,0,0" up="0,1,0"/></transform></camera>
 )" + more + "\n</scene>\n";
@@ -45,10 +45,11 @@ const std::string glass = R"(<bsdf type="dielectric"/>)";
 const std::string lamp = R"(<emitter type="area"><color name="radiance" value="1,1,1"/></emitter>)";
 
 // What check prints of the scene, without the line about memory.
-std::string doubts(const std::string& more, const std::string& obj = cube(false))
+std::string doubts(const std::string& more, const std::string& obj = cube(false),
+                   const std::string& integrator = "path_mis")
 {
     const TempFolder folder;
-    folder.write("a.xml", scene(more));
+    folder.write("a.xml", scene(more, integrator));
     folder.write("mesh.obj", obj);
     const RunResult run = run_renderer({"check", "a.xml"}, folder.path());
     INFO(run.err);
@@ -80,6 +81,19 @@ TEST_CASE("glass that is open or turned inside out is doubtful", "[cli][check]")
     CHECK(doubts(sun + mesh(glass), open) ==
           "mesh 'obj' (a.xml:4): light enters its material, but the surface is not closed\n");
     CHECK(doubts(sun + mesh(""), open).empty()); // what is opaque may be open
+
+    // A lid of another material, but of glass, closes it; one that is elsewhere does not.
+    const auto lid = [](const std::string& x, const std::string& bsdf) {
+        return R"(<shape type="rectangle"><float name="width" value="2"/><float name="height" value="2"/>
+        <point name="center" value=")" +
+               x + R"(,0,0"/><vector name="normal" value="-1,0,0"/>)" + bsdf + "</shape>";
+    };
+    CHECK(doubts(sun + mesh(glass) + lid("-1", glass), open).empty());
+    CHECK(doubts(sun + mesh(glass) + lid("-1.5", glass), open) ==
+          "mesh 'obj' (a.xml:4): light enters its material, but the surface is not closed\n"
+          "shape 'rectangle' (a.xml:4): light enters its material, but the surface is not closed\n");
+    CHECK(doubts(sun + mesh(glass) + lid("-1", ""), open) ==
+          "mesh 'obj' (a.xml:4): light enters its material, but the surface is not closed\n");
 }
 
 TEST_CASE("lamps that light nothing are doubtful", "[cli][check]")
@@ -97,6 +111,7 @@ TEST_CASE("lamps that light nothing are doubtful", "[cli][check]")
             R"(<shape type="sphere"><emitter type="area"><color name="radiance" value="0,0,0"/></emitter></shape>)") ==
         "shape 'sphere' (a.xml:4): its emitter is black\n");
     CHECK(doubts(mesh("")) == "there is no light: the picture will be black\n");
+    CHECK(doubts(mesh(""), cube(false), "normals").empty()); // which needs none
 }
 
 TEST_CASE("a camera inside a thing is doubtful, and so is a warning", "[cli][check]")

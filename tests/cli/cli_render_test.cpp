@@ -2,32 +2,13 @@
 
 // What the program writes.
 
+#include "cli/picture_header.h"
 #include "cli/small_scene.h"
-#include "plumb/image.h"
 #include "support/catch.h"
 
 #include <cstring>
-#include <map>
 
 using namespace plumb;
-
-namespace {
-
-std::map<std::string, MetadataValue> header(const std::filesystem::path& image)
-{
-    const Image read = read_image(image, false);
-    return {read.metadata.begin(), read.metadata.end()};
-}
-
-std::string text(const std::map<std::string, MetadataValue>& header, const std::string& name)
-{
-    const auto found = header.find(name);
-    if (found == header.end()) return "no " + name;
-    const auto* value = std::get_if<std::string>(&found->second);
-    return value ? *value : name + " is no text";
-}
-
-} // namespace
 
 TEST_CASE("a scene becomes an image", "[cli][render]")
 {

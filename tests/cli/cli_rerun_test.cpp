@@ -2,33 +2,16 @@
 
 // Error bars, the ledger of biases, and pictures rendered again from their headers.
 
+#include "cli/picture_header.h"
 #include "cli/small_scene.h"
 #include "cli/text.h"
-#include "plumb/image.h"
 #include "support/catch.h"
 
 #include <cmath>
-#include <map>
 
 using namespace plumb;
 
 namespace {
-
-std::map<std::string, MetadataValue> header(const std::filesystem::path& image)
-{
-    const Image read = read_image(image, false);
-    return {read.metadata.begin(), read.metadata.end()};
-}
-
-int integer(const std::map<std::string, MetadataValue>& header, const std::string& name)
-{
-    return std::get<int>(header.at(name));
-}
-
-std::string text(const std::map<std::string, MetadataValue>& header, const std::string& name)
-{
-    return std::get<std::string>(header.at(name));
-}
 
 const std::string triangle = "v -1 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\n";
 

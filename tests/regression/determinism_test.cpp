@@ -94,7 +94,7 @@ TEST_CASE("a replayed sample is the sample that was rendered", "[regression][det
     RenderOptions options;
     options.seed = 9;
     options.crop = PixelRect{pixel.x, pixel.y, 1, 1};
-    const RenderResult rendered = render(loaded.job, options);
+    const RenderState rendered = render(loaded.job, options);
 
     Film film(*options.crop, 53, 41);
     for (std::uint64_t index = 0; index < 20; ++index) {

@@ -108,10 +108,10 @@ TEST_CASE("a scene of another scale gives the same picture", "[statistical][scen
             scaled(0.0), scaled(2.0), scaled(6.0), scaled(0.5), scaled(20.0), scaled(-1.1), scaled(0.8),
             scaled(1.1), scaled(3.0), scaled(0.3), 4.0 * s * s);
         const LoadedScene loaded = test::load_text(xml);
-        const RenderResult result = render(loaded.job, {});
+        const RenderState result = render(loaded.job, {});
         CHECK(result.left_out.count == 0);
         const Image image = result.film.develop();
-        test::MeanAndVariance mean;
+        MeanAndVariance mean;
         for (int y = 0; y < 24; ++y)
             for (int x = 0; x < 32; ++x) mean.add(luminance(image.color(x, y)));
         return mean.mean();

@@ -27,7 +27,7 @@ LoadedScene load_small(const std::string& scene, const std::string& integrator)
 double mean_luminance(const Image& image)
 {
     const PixelRect& window = image.data_window();
-    test::MeanAndVariance mean;
+    MeanAndVariance mean;
     for (int y = window.y; y < window.y + window.height; ++y)
         for (int x = window.x; x < window.x + window.width; ++x) mean.add(luminance(image.color(x, y)));
     return mean.mean();
@@ -36,9 +36,9 @@ double mean_luminance(const Image& image)
 // The mean of a whole picture, as many times as there are replicates with seeds of their own.
 constexpr std::uint64_t replicates = 24;
 
-test::MeanAndVariance picture_means(const RenderJob& job, std::uint64_t samples_per_pixel, std::uint64_t seed)
+MeanAndVariance picture_means(const RenderJob& job, std::uint64_t samples_per_pixel, std::uint64_t seed)
 {
-    test::MeanAndVariance means;
+    MeanAndVariance means;
     for (std::uint64_t i = 0; i < replicates; ++i) {
         RenderOptions options;
         options.samples_per_pixel = samples_per_pixel;

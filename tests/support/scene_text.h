@@ -6,7 +6,6 @@
 #include "plumb/scene_file.h"
 #include "support/temp_folder.h"
 
-#include <fstream>
 #include <string>
 
 namespace plumb::test {
@@ -14,9 +13,23 @@ namespace plumb::test {
 inline LoadedScene load_text(const std::string& xml, const LoadOptions& options = {})
 {
     const TempFolder folder;
-    const std::filesystem::path path = folder.path() / "scene.xml";
-    std::ofstream(path) << xml;
-    return load_scene(path, options);
+    return load_scene(folder.write("scene.xml", xml), options);
 }
+
+// What loading complains of.
+inline std::string errors(const std::string& xml, const LoadOptions& options = {})
+{
+    try {
+        load_text(xml, options);
+        return {};
+    } catch (const SceneError& error) {
+        return error.what();
+    }
+}
+
+// A camera of 8 x 6 pixels, and how a scene with it starts.
+inline const std::string camera = "<camera type='perspective'><integer name='width' value='8'/>"
+                                  "<integer name='height' value='6'/></camera>";
+inline const std::string start = "<scene dialect='plumb'><integrator type='normals'/>" + camera;
 
 } // namespace plumb::test

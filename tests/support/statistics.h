@@ -8,7 +8,7 @@
 // repeated once with 100 times the samples and another seed, and that result counts. Everything is in double
 // precision and uses the C library's functions, not the ones under test.
 
-#include "plumb/math.h"
+#include "plumb/mean_and_variance.h"
 #include "support/random.h"
 
 #include <cstdint>
@@ -31,31 +31,6 @@ double student_t_two_sided(double t, double degrees_of_freedom);   // chance of 
 
 // The level of each of `tests` tests that together fail by chance with probability `level`.
 double sidak_level(double level, std::size_t tests);
-
-// Mean and variance of a stream of numbers (Welford 1962).
-class MeanAndVariance {
-public:
-    void add(double x)
-    {
-        ++count_;
-        const double delta = x - mean_;
-        mean_ += delta / static_cast<double>(count_);
-        sum_of_squares_ += delta * (x - mean_);
-    }
-
-    std::uint64_t count() const { return count_; }
-    double mean() const { return mean_; }
-    double variance() const { return count_ > 1 ? sum_of_squares_ / static_cast<double>(count_ - 1) : 0.0; }
-    double standard_error() const
-    {
-        return count_ > 0 ? std::sqrt(variance() / static_cast<double>(count_)) : 0.0;
-    }
-
-private:
-    std::uint64_t count_ = 0;
-    double mean_ = 0.0;
-    double sum_of_squares_ = 0.0;
-};
 
 // The outcome of one run: its p-value, and a line that says what was seen.
 struct Outcome {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// A folder of a test's own, removed with everything in it when the test ends.
+// Files that tests read, and a folder of a test's own, removed with everything in it when the test ends.
 
 #include <algorithm>
 #include <cstdlib>
@@ -20,6 +20,16 @@ inline std::string read_bytes(const std::filesystem::path& path)
     std::ifstream file(path, std::ios::binary);
     if (!file) throw std::runtime_error("cannot read " + path.string());
     return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+// The .xml files of a folder, sorted.
+inline std::vector<std::filesystem::path> xml_files(const std::filesystem::path& folder)
+{
+    std::vector<std::filesystem::path> files;
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+        if (entry.path().extension() == ".xml") files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    return files;
 }
 
 class TempFolder {

@@ -2,8 +2,7 @@
 // Every file in tests/scenes/bad_tests, a test file of a course, beside the exact text of what is wrong with it.
 
 #include "plumb/test_file.h"
-#include "support/catch.h"
-#include "support/temp_folder.h"
+#include "support/bad_files.h"
 
 using namespace plumb;
 
@@ -11,33 +10,6 @@ namespace {
 
 const std::filesystem::path folder =
     std::filesystem::path(PLUMB_SOURCE_DIR) / "tests" / "scenes" / "bad_tests";
-
-std::vector<std::filesystem::path> bad_tests()
-{
-    std::vector<std::filesystem::path> files;
-    for (const auto& entry : std::filesystem::directory_iterator(folder))
-        if (entry.path().extension() == ".xml") files.push_back(entry.path());
-    std::sort(files.begin(), files.end());
-    return files;
-}
-
-// What loading complains of, with paths relative to the folder.
-std::string complaints(const std::filesystem::path& path)
-{
-    std::string text;
-    try {
-        load_test(path);
-        return "no error\n";
-    } catch (const SceneError& error) {
-        text = error.what();
-    } catch (const Error& error) {
-        text = std::string("not a scene error: ") + error.what();
-    }
-    const std::string prefix = folder.string() + "/";
-    for (std::size_t i = text.find(prefix); i != text.npos; i = text.find(prefix, i))
-        text.erase(i, prefix.size());
-    return text + "\n";
-}
 
 TestFile load_text(const std::string& text)
 {
@@ -51,14 +23,13 @@ const std::string scene_start = "<scene><integrator type='normals'/><camera type
 
 TEST_CASE("bad tests", "[unit][test_file]")
 {
-    const std::filesystem::path path = GENERATE(from_range(bad_tests()));
-    CAPTURE(path.filename());
-    CHECK(complaints(path) == read_bytes(std::filesystem::path(path).replace_extension(".expected")));
+    const std::filesystem::path path = GENERATE(from_range(xml_files(folder)));
+    check_complaints(path, [](const std::filesystem::path& test) { load_test(test); });
 }
 
 TEST_CASE("there are bad tests", "[unit][test_file]")
 {
-    CHECK(bad_tests().size() >= 24);
+    CHECK(xml_files(folder).size() >= 24);
 }
 
 TEST_CASE("a ttest has the courses' defaults", "[unit][test_file]")

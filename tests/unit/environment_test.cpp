@@ -239,7 +239,7 @@ TEST_CASE("environment light is sampled with the density it claims", "[statistic
     const double expected =
         integral([&](const Vec3f& wi) { return luminance(seen(*emitter, wi).radiance) * (1.5 + wi.y); });
     const auto estimate = [&](std::uint64_t samples, std::uint64_t seed) {
-        test::MeanAndVariance mean;
+        MeanAndVariance mean;
         TestRandom random(seed + 77);
         for (std::uint64_t i = 0; i < samples; ++i) {
             const double u_select = random.next_double();

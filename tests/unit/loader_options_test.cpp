@@ -6,25 +6,10 @@
 #include "support/scene_text.h"
 
 using namespace plumb;
+using test::camera;
+using test::errors;
 using test::load_text;
-
-namespace {
-
-const std::string camera = "<camera type='perspective'><integer name='width' value='8'/>"
-                           "<integer name='height' value='6'/></camera>";
-const std::string start = "<scene dialect='plumb'><integrator type='normals'/>" + camera;
-
-std::string errors(const std::string& xml, const LoadOptions& options)
-{
-    try {
-        load_text(xml, options);
-        return {};
-    } catch (const SceneError& error) {
-        return error.what();
-    }
-}
-
-} // namespace
+using test::start;
 
 TEST_CASE("what the command line changes", "[unit][loader]")
 {

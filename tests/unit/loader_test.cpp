@@ -6,29 +6,18 @@
 #include "support/scene_text.h"
 
 using namespace plumb;
+using test::camera;
+using test::errors;
 using test::load_text;
+using test::start;
 
 namespace {
-
-const std::string camera = "<camera type='perspective'><integer name='width' value='8'/>"
-                           "<integer name='height' value='6'/></camera>";
-const std::string start = "<scene dialect='plumb'><integrator type='normals'/>" + camera;
 
 std::string messages(const std::vector<Diagnostic>& diagnostics)
 {
     std::string text;
     for (const Diagnostic& diagnostic : diagnostics) text += diagnostic.text() + "\n";
     return text;
-}
-
-std::string errors(const std::string& xml, const LoadOptions& options = {})
-{
-    try {
-        load_text(xml, options);
-        return {};
-    } catch (const SceneError& error) {
-        return error.what();
-    }
 }
 
 Color albedo(const SceneObject& object)

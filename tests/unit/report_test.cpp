@@ -59,7 +59,7 @@ TEST_CASE("a report has what --json promises", "[unit][json]")
     Report report;
     report.scene = "a \"b\".xml";
     report.dialect = Dialect::standard(DialectName::eth);
-    report.samples_per_pixel = 16;
+    report.evidence.samples_per_pixel = 16;
     report.resolution = {64, 48};
     report.crop = PixelRect{1, 2, 3, 4};
     report.triangles = 12;
@@ -101,9 +101,9 @@ TEST_CASE("a report has what --json promises", "[unit][json]")
         CHECK_THAT(report_json(report),
                    ContainsSubstring("\"biased\": false,\n  \"biases\": [],\n  \"model\": [],\n"
                                      "  \"noise\": null,"));
-        report.ledger.biases = {"this", "that"};
-        report.ledger.model = {"emitters absorb"};
-        report.noise = NoiseEstimate{0.5, 0.25, 0.75};
+        report.evidence.ledger.biases = {"this", "that"};
+        report.evidence.ledger.model = {"emitters absorb"};
+        report.evidence.noise = NoiseEstimate{0.5, 0.25, 0.75};
         CHECK_THAT(report_json(report),
                    ContainsSubstring("\"biased\": true,\n  \"biases\": [\n    \"this\",\n    \"that\"\n  ],\n"
                                      "  \"model\": [\n    \"emitters absorb\"\n  ],\n  \"noise\": {\n"
@@ -111,11 +111,11 @@ TEST_CASE("a report has what --json promises", "[unit][json]")
     }
     SECTION("a sample left out has its place and its reason")
     {
-        report.left_out.count = 3;
-        report.left_out.first.pixel = {5, 6};
-        report.left_out.first.index = 7;
-        report.left_out.first.verdict = Verdict::not_finite;
-        report.left_out.first.value = Color(std::numeric_limits<float>::quiet_NaN(), 1.f, infinity);
+        report.evidence.left_out.count = 3;
+        report.evidence.left_out.first.pixel = {5, 6};
+        report.evidence.left_out.first.index = 7;
+        report.evidence.left_out.first.verdict = Verdict::not_finite;
+        report.evidence.left_out.first.value = Color(std::numeric_limits<float>::quiet_NaN(), 1.f, infinity);
         CHECK_THAT(
             report_json(report),
             ContainsSubstring("\"count\": 3,\n    \"first\": {\n      \"pixel\": [\n        5,\n        6\n"

@@ -45,16 +45,6 @@ TEST_CASE("tests at the level of Sidak together fail at the level asked for", "[
     CHECK(1.0 - std::pow(1.0 - sidak_level(0.01, 37), 37) == Approx(0.01).epsilon(1e-12));
 }
 
-TEST_CASE("mean and variance of known numbers", "[unit][statistics]")
-{
-    MeanAndVariance seen;
-    for (const double x : {2.0, 4.0, 4.0, 4.0, 5.0, 5.0, 7.0, 9.0}) seen.add(x + 1e6);
-    CHECK(seen.count() == 8);
-    CHECK(seen.mean() == 1e6 + 5.0);
-    CHECK(seen.variance() == Approx(32.0 / 7.0).epsilon(1e-9));
-    CHECK(seen.standard_error() == Approx(std::sqrt(4.0 / 7.0)).epsilon(1e-9));
-}
-
 TEST_CASE("the test of a mean accepts the right mean and rejects a wrong one", "[unit][statistics]")
 {
     MeanAndVariance seen;

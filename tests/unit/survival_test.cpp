@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 
-// The program's survival functions: against closed forms, and against those of the tests, which use libm.
+// The program's survival functions: against closed forms, the values of another program, and those of the tests, which
+// use libm.
 
 #include "plumb/statistics.h"
 #include "support/catch.h"
@@ -87,21 +88,36 @@ TEST_CASE("levels after Sidak agree with libm", "[unit][survival]")
                 Approx(-std::expm1(std::log1p(-level) / static_cast<double>(tests))).epsilon(1e-13).scale(0));
 }
 
-TEST_CASE("means of parts are those of the whole", "[unit][survival]")
+// The values are scipy 1.17's: 2 t.sf(t, n), 2 norm.sf(z), gammaln(x).
+TEST_CASE("chances far out in the tails are right", "[unit][survival]")
 {
-    plumb::test::TestRandom random(3);
-    plumb::MeanAndVariance whole, together;
-    for (const int size : {1, 0, 1000, 7}) {
-        plumb::MeanAndVariance part;
-        for (int i = 0; i < size; ++i) {
-            const double x = 1e4 + random.next_double();
-            part.add(x);
-            whole.add(x);
-        }
-        together.add(part);
-    }
-    CHECK(together.count() == 1008);
-    CHECK(together.mean() == Approx(whole.mean()).epsilon(1e-14));
-    CHECK(together.variance() == Approx(whole.variance()).epsilon(1e-9));
-    CHECK(plumb::MeanAndVariance().variance() == 0.0);
+    CHECK(plumb::student_t_two_sided(0.0, 5.0) == 1.0);
+    CHECK(plumb::student_t_two_sided(0.5, 1.0) == Approx(0.7048327646991335).epsilon(1e-10));
+    CHECK(plumb::student_t_two_sided(2.0, 3.5) == Approx(0.12613852257591343).epsilon(1e-10));
+    CHECK(plumb::student_t_two_sided(-5.0, 16.0) == Approx(0.00013086769808078334).epsilon(1e-10));
+    CHECK(plumb::student_t_two_sided(12.0, 16.0) == Approx(2.057463213604229e-09).epsilon(1e-9));
+    CHECK(plumb::student_t_two_sided(8.0, 1e4) == Approx(1.3821208729065301e-15).epsilon(1e-7));
+    CHECK(plumb::student_t_two_sided(40.0, 200.0) == Approx(2.2487396535202197e-97).epsilon(1e-8));
+    CHECK(plumb::student_t_two_sided(1e-3, 50.0) == Approx(0.9992060947755017).epsilon(1e-12));
+    CHECK(plumb::student_t_two_sided(8.0, 1e12) == Approx(1.244192114854348e-15).epsilon(1e-9));
+    CHECK(plumb::student_t_two_sided(double(plumb::infinity), 3.0) == 0.0);
+
+    CHECK(2.0 * plumb::normal_survival(0.5) == Approx(0.6170750774519738).epsilon(1e-10));
+    CHECK(2.0 * plumb::normal_survival(2.9) == Approx(0.003731626600768075).epsilon(1e-8));
+    CHECK(2.0 * plumb::normal_survival(3.1) == Approx(0.0019352064264367126).epsilon(1e-10));
+    CHECK(2.0 * plumb::normal_survival(20.0) == Approx(5.507248237212311e-89).epsilon(1e-10));
+    CHECK(2.0 * plumb::normal_survival(double(plumb::infinity)) == 0.0);
+
+    CHECK(plumb::log_gamma(0.5) == Approx(0.5723649429247).epsilon(1e-12));
+    CHECK(plumb::log_gamma(3.7) == Approx(1.428072326665388).epsilon(1e-12));
+    CHECK(plumb::log_gamma(11.99) == Approx(17.477885575426185).epsilon(1e-12));
+    CHECK(plumb::log_gamma(250.5) == Approx(1131.2840013322552).epsilon(1e-12));
+}
+
+TEST_CASE("quantiles undo the chances", "[unit][survival]")
+{
+    for (const double freedom : {0.7, 3.0, 16.0, 1e5, double(plumb::infinity)})
+        for (const double p : {1.0, 0.5, 0.01, 1e-9})
+            CHECK(plumb::student_t_two_sided(plumb::student_t_quantile(p, freedom), freedom) ==
+                  Approx(p).epsilon(1e-6));
 }

@@ -38,6 +38,7 @@ std::size_t BatchRun::count(BatchVerdict verdict) const
 
 int BatchRun::exit_code() const
 {
+    if (signal != 0) return exit_code::signal + signal;
     if (count(BatchVerdict::error) > 0) return exit_code::error;
     if (count(BatchVerdict::differs) > 0) return exit_code::differs;
     if (count(BatchVerdict::undecided) > 0) return exit_code::undecided;
@@ -61,7 +62,7 @@ std::string_view verdict_word(BatchVerdict verdict)
 std::string reason_text(const BatchResult& result)
 {
     if (result.verdict == BatchVerdict::error) return result.problem.substr(0, result.problem.find('\n'));
-    if (result.verdict == BatchVerdict::not_run) return "an earlier one did not pass";
+    if (result.verdict == BatchVerdict::not_run) return "the batch ended before";
     if (!result.comparison) return {};
     const Comparison& comparison = *result.comparison;
     const Significance& noise = comparison.significance;

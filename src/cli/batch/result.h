@@ -11,7 +11,7 @@ namespace plumb {
 
 // In the order of getting worse, but for not_run.
 enum class BatchVerdict {
-    not_run,  // after --fail-fast
+    not_run,  // after --fail-fast or a signal
     made,     // a reference
     rendered, // there is nothing to compare it with
     passes,
@@ -31,6 +31,7 @@ struct BatchResult {
     BatchVerdict verdict = BatchVerdict::not_run;
     bool up_to_date = false; // not rendered again
     double seconds = 0.0;    // for all of it
+    int signal = 0;          // that ended the rendering; 0: none
     std::string problem;     // of an error: the text of all that is wrong
     std::vector<std::string> warnings;
     std::optional<double> noise; // the root mean squared error that the picture's own noise makes expect
@@ -45,6 +46,7 @@ struct BatchRun {
     std::string folder;
     std::vector<BatchResult> results;
     double seconds = 0.0;
+    int signal = 0; // that ended it; 0: none
 
     std::size_t count(BatchVerdict verdict) const;
     int exit_code() const;

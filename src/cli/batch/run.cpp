@@ -25,6 +25,7 @@ Options options_of(const std::vector<std::string>& words, const Options& run)
     options.quiet =
         run.quiet || !log_is_terminal(); // one bar after the other, no lines between those of the table
     options.render.threads = run.render.threads;
+    options.keep_interrupted = false; // half a picture is neither a result nor a reference
     return options;
 }
 
@@ -61,6 +62,13 @@ void attempt(BatchResult& result, const std::function<void()>& work)
         fail(std::string("error: ") + error.what());
     }
     result.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// Throws Error if a signal came.
+void check_whole(const Rendered& rendered, BatchResult& result)
+{
+    result.signal = rendered.signal;
+    if (rendered.signal != 0) throw Error("interrupted");
 }
 
 // What the picture's header says.
@@ -168,7 +176,7 @@ BatchResult run_entry(const BatchJob& job, BatchContext& context)
                 make_folder(fs::path(stem).parent_path());
                 keep_inputs(context.kept, options.outputs, {}, "it is a scene or a reference of the suite");
                 check_outputs(options.outputs, {});
-                render_and_write(options, scene);
+                check_whole(render_and_write(options, scene), result);
                 context.state.note(result.title, key, options.outputs);
             }
         }
@@ -196,9 +204,11 @@ BatchResult make_reference(const BatchJob& job, const Options& run, const std::v
         make_folder(job.entry.reference.parent_path());
         keep_inputs(kept, options.outputs, {}, "it is a scene of the suite");
         check_outputs(options.outputs, {});
-        const Report report = render_and_write(options, scene);
-        if (report.noise) result.noise = report.noise->rmse;
-        result.left_out = report.left_out.count;
+        const Rendered rendered = render_and_write(options, scene);
+        check_whole(rendered, result);
+        const Evidence& evidence = rendered.report.evidence;
+        if (evidence.noise) result.noise = evidence.noise->rmse;
+        result.left_out = evidence.left_out.count;
         result.verdict = BatchVerdict::made;
     });
     return result;

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#include "cli/checkpoint.h"
+
+#include "cli/console.h"
+#include "cli/provenance.h"
+#include "cli/text.h"
+
+#include "io/temporary_file.h"
+#include "plumb/error.h"
+
+#include <fmt/format.h>
+
+namespace plumb {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_there(const fs::path& path)
+{
+    std::error_code ignored;
+    return fs::exists(path, ignored);
+}
+
+// The file gets a second name; it keeps the first. Where the file system has no such links, the name is changed: then
+// there is an instant without the last generation, but with this one.
+void keep_as(const fs::path& file, const fs::path& name)
+{
+    fs::path other = name;
+    other.replace_filename("." + name.filename().string() + ".new");
+    std::error_code failed;
+    fs::remove(other, failed);
+    fs::create_hard_link(file, other, failed);
+    if (failed)
+        fs::rename(file, name, failed);
+    else
+        fs::rename(other, name, failed);
+    if (failed) throw Error(fmt::format("cannot write '{}': {}", name.string(), failed.message()));
+}
+
+} // namespace
+
+fs::path previous_generation(const fs::path& checkpoint)
+{
+    fs::path path = checkpoint;
+    return path.replace_filename(checkpoint.stem().string() + ".previous" + checkpoint.extension().string());
+}
+
+void save_checkpoint(const fs::path& path, const RenderState& state, Vec2i resolution, const Metadata& header)
+{
+    TemporaryFile file(path);
+    std::vector<unsigned char> bytes;
+    try {
+        bytes = encode_state(state, resolution, header);
+    } catch (const Error& error) {
+        throw Error(fmt::format("cannot write '{}': {}", path.string(), error.what()));
+    }
+    file.write(std::span<const unsigned char>(bytes));
+    file.flush();
+    if (is_there(path)) keep_as(path, previous_generation(path));
+    file.take_place();
+    flush_folder_of(path);
+}
+
+std::optional<StateFile> load_checkpoint(const fs::path& path, const Metadata& header)
+{
+    const fs::path previous = previous_generation(path);
+    if (!is_there(path) && !is_there(previous)) return std::nullopt;
+    std::optional<StateFile> file;
+    std::string problem;
+    for (const fs::path& generation : {path, previous}) {
+        try {
+            file.emplace(read_state(generation));
+        } catch (const Error& error) {
+            if (!problem.empty())
+                throw Error(fmt::format("{}; nor its previous generation: {}", problem, error.what()));
+            problem = error.what();
+            continue;
+        }
+        if (!problem.empty())
+            print_log(fmt::format("warning: {}; going on from '{}'", problem, generation.string()));
+        if (const auto changes = sample_changes(file->header, header); !changes.empty())
+            throw Error(fmt::format("cannot go on from '{}': {}", generation.string(), list_text(changes)));
+        break;
+    }
+    return file;
+}
+
+} // namespace plumb

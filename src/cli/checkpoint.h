@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// State files (state_file.h) on disk: two generations of each, so that one survives whatever happens.
+
+#include "plumb/state_file.h"
+
+#include <filesystem>
+#include <optional>
+
+namespace plumb {
+
+// Where the generation before the last is kept: "a.previous.exr" for "a.exr".
+std::filesystem::path previous_generation(const std::filesystem::path& checkpoint);
+
+// Writes the state beside `path`, waits until the disk has it, keeps the last generation as the previous one, and gives
+// the new one its name: at no instant is there none. Throws Error; the generations there are stay as they are.
+void save_checkpoint(const std::filesystem::path& path, const RenderState& state, Vec2i resolution,
+                     const Metadata& header);
+
+// The state to go on from, or nothing if there is neither generation; says on the log which it is, if it is the previous
+// one because the last is damaged, and why. header: of the rendering that is to go on. Throws Error if there is a
+// generation but none that is whole, or if it is of another rendering, with what has changed.
+std::optional<StateFile> load_checkpoint(const std::filesystem::path& path, const Metadata& header);
+
+} // namespace plumb

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: MIT
+#include "cli/checkpoint.h"
+#include "cli/commands.h"
+#include "cli/console.h"
+#include "cli/exit_codes.h"
+#include "cli/header.h"
+#include "cli/json.h"
+#include "cli/manuals.h"
+#include "cli/outputs.h"
+#include "cli/provenance.h"
+#include "cli/text.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace plumb {
+
+namespace {
+
+// The parts that were merged so far.
+struct Merged {
+    StateFile file;
+    std::vector<std::pair<std::string, SampleSet>> parts; // file names and what they have
+    std::vector<std::string> names;                       // plumb:workPart of each
+};
+
+std::uint64_t wanted_samples(const StateFile& file)
+{
+    for (const auto& [name, value] : file.header)
+        if (const int* const samples = std::get_if<int>(&value); samples && name == "plumb:workWanted")
+            return static_cast<std::uint64_t>(*samples);
+    return file.state.taken.samples_per_pixel(file.state.film.window()).most;
+}
+
+std::string rectangle_text(const PixelRect& r)
+{
+    return fmt::format("{},{},{},{}", r.x, r.y, r.width, r.height);
+}
+
+// Throws Error if the part is not one of the same picture, or has samples that are there already.
+void check_part(const Merged& merged, const StateFile& part, const std::string& name)
+{
+    const std::string& first = merged.parts.front().first;
+    const auto refuse = [&](const std::string& why) {
+        throw Error(fmt::format("'{}' and '{}' are not of one picture: {}", first, name, why));
+    };
+    if (const auto changes = sample_changes(merged.file.header, part.header); !changes.empty())
+        refuse(list_text(changes));
+    if (part.resolution != merged.file.resolution ||
+        part.state.film.window() != merged.file.state.film.window())
+        refuse(fmt::format("one has the pixels {}, the other {}",
+                           rectangle_text(merged.file.state.film.window()),
+                           rectangle_text(part.state.film.window())));
+    if (wanted_samples(part) != wanted_samples(merged.file))
+        refuse(fmt::format("one is of {} samples per pixel, the other of {}", wanted_samples(merged.file),
+                           wanted_samples(part)));
+    for (const auto& [other, samples] : merged.parts)
+        if (const SampleSet both = samples & part.state.taken; !both.empty())
+            throw Error(fmt::format("'{}' and '{}' both have {} samples, the first of them at {}", other,
+                                    name, count_text(both.count()), SampleSet(both.blocks().front()).text()));
+}
+
+// Of headers that differ in nothing that changes a sample: the same one whatever the order of the parts.
+std::string rank(const Metadata& header)
+{
+    return header_text(header, "plumb:scene") + "\n" + header_text(header, "plumb:arguments") + "\n" +
+           header_text(header, "plumb:dialectReason");
+}
+
+Merged merge_parts(const std::vector<std::string>& names)
+{
+    std::optional<Merged> merged;
+    for (const std::string& name : names) {
+        StateFile part = read_state(name);
+        const SampleSet samples = part.state.taken;
+        const std::string label = header_text(part.header, "plumb:workPart");
+        if (!merged) {
+            merged.emplace(Merged{std::move(part), {}, {}});
+        } else {
+            check_part(*merged, part, name);
+            merged->file.state += part.state;
+            if (rank(part.header) < rank(merged->file.header)) merged->file.header = std::move(part.header);
+        }
+        merged->parts.emplace_back(name, samples);
+        for (const std::string& one : lines_of(label)) merged->names.push_back(one);
+    }
+    return std::move(*merged);
+}
+
+// " (part 3/8 by tiles and part 5/8 by tiles)": those of the scheme of which no file is there.
+std::string missing_parts(const std::vector<std::string>& names)
+{
+    if (names.empty()) return {};
+    const auto split = [](const std::string& name) { return name.find('/'); };
+    const std::string scheme = names.front().substr(std::min(split(names.front()), names.front().size()));
+    const std::uint64_t count =
+        std::strtoull(scheme.c_str() + std::min<std::size_t>(1, scheme.size()), nullptr, 10);
+    std::vector<std::string> missing;
+    for (std::uint64_t i = 1; i <= count && missing.size() < 20; ++i)
+        if (const std::string name = fmt::format("{}{}", i, scheme);
+            std::find(names.begin(), names.end(), name) == names.end())
+            missing.push_back("part " + name);
+    return missing.empty() ? std::string() : fmt::format(" ({})", list_text(missing));
+}
+
+void replace(Metadata& header, const std::string& name, const std::string& text)
+{
+    std::erase_if(header, [&](const auto& entry) { return entry.first == name; });
+    if (!text.empty()) header.emplace_back(name, text);
+}
+
+// What the whole picture's header has of it, and the options that it was rendered with.
+Metadata picture_header(const StateFile& file, const Evidence& evidence)
+{
+    Metadata header = file.header;
+    std::erase_if(header, [](const auto& entry) { return entry.first.starts_with(work_prefix); });
+    const Metadata rest = evidence_header(evidence);
+    header.insert(header.end(), rest.begin(), rest.end());
+    return header;
+}
+
+Options options_of(const StateFile& file)
+{
+    std::vector<std::string> words = shell_split(header_text(file.header, "plumb:arguments"));
+    words.insert(words.begin(), header_text(file.header, "plumb:scene"));
+    return parse_options(std::move(words));
+}
+
+std::string merge_json(const Options& options, const Merged& merged, const SampleSet& missing,
+                       const std::vector<std::string>& outputs)
+{
+    JsonWriter json;
+    json.begin_object();
+    json.begin_array("parts");
+    for (const auto& [name, samples] : merged.parts) {
+        json.begin_object();
+        json.text("file", name);
+        json.integer("samples", samples.count());
+        json.end_object();
+    }
+    json.end_array();
+    json.integer("samples", merged.file.state.taken.count());
+    json.integer("missing", missing.count());
+    json.boolean("complete", missing.empty());
+    json.number("render_seconds", merged.file.state.seconds);
+    json.begin_array("outputs");
+    for (const std::string& output : outputs) json.text({}, output);
+    json.end_array();
+    json.text("checkpoint", options.checkpoint.file);
+    json.end_object();
+    return std::move(json).finish();
+}
+
+void write_picture_of(const Merged& merged, const Options& run)
+{
+    const StateFile& file = merged.file;
+    const Ledger ledger{lines_of(header_text(file.header, "plumb:workBiases")),
+                        lines_of(header_text(file.header, "plumb:workModel"))};
+    const Evidence evidence = make_evidence(ledger, file.state, header_text(file.header, "plumb:workStop"));
+    const Options options = options_of(file);
+    Image image = file.state.film.develop(options.variance ? Channels::color_and_evidence : Channels::color);
+    image.metadata = picture_header(file, evidence);
+    write_pictures(run.outputs, image, options.exposure, std::filesystem::path(run.subject).parent_path());
+}
+
+} // namespace
+
+std::string_view merge_manual()
+{
+    return "Puts together what `renderer SCENE --part K/N -o PART.exr` rendered, in any order: the picture\n"
+           "is that of rendering all of it at once, bit for bit. With --checkpoint the sum is a part again,\n"
+           "which may be merged with others or, once the whole picture is there, be gone on from. The\n"
+           "checkpoint of an unfinished rendering is a part as well. Parts of different scenes, settings,\n"
+           "programs or instruction sets, samples that are there twice, and samples that are missing (but\n"
+           "for --allow-missing) are errors.\n";
+}
+
+int merge_command(const Options& options)
+{
+    std::vector<std::string> outputs = options.outputs;
+    if (!options.checkpoint.file.empty()) outputs.push_back(options.checkpoint.file);
+    check_outputs(outputs, options.json);
+    keep_inputs({options.subjects.begin(), options.subjects.end()}, outputs, options.json,
+                "it is a part to be merged");
+
+    Merged merged = merge_parts(options.subjects);
+    StateFile& file = merged.file;
+    const SampleSet wanted(SampleBlock{file.state.film.window(), 0, wanted_samples(file)});
+    const SampleSet missing = wanted - file.state.taken;
+    const std::string complaint =
+        missing.empty()
+            ? std::string()
+            : fmt::format("{} of {} samples are missing{}, the first of them at {}",
+                          count_text(missing.count()), count_text(wanted.count()),
+                          missing_parts(merged.names), SampleSet(missing.blocks().front()).text());
+    if (!missing.empty() && !options.outputs.empty() && !options.allow_missing)
+        throw Error(complaint + "; --allow-missing makes the picture without them");
+
+    std::sort(merged.names.begin(), merged.names.end());
+    replace(file.header, "plumb:workPart", lines_text(merged.names));
+    if (!options.checkpoint.file.empty())
+        save_checkpoint(options.checkpoint.file, file.state, file.resolution, file.header);
+    if (!options.outputs.empty()) write_picture_of(merged, options);
+    write_json(options.json, merge_json(options, merged, missing, options.outputs));
+    if (options.quiet) return exit_code::done;
+    print_log(fmt::format("{}: {} samples of {} part{}", list_text(outputs),
+                          count_text(file.state.taken.count()), merged.parts.size(),
+                          merged.parts.size() == 1 ? "" : "s"));
+    if (!missing.empty()) print_log("warning: " + complaint);
+    return exit_code::done;
+}
+
+} // namespace plumb

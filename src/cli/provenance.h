@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Whether two headers (header.h) tell of the same work.
+
+#include "plumb/image.h"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace plumb {
+
+// The value of that name; empty if there is none or if it is no text.
+std::string header_text(const Metadata& header, std::string_view name);
+
+// What is different in the files that were read, by plumb:inputs, and what options and dialect made of them, by
+// plumb:inputHash: "'a.obj' has changed". Empty: nothing.
+std::vector<std::string> input_changes(const Metadata& then, const Metadata& now);
+
+// That, and whatever else changes a sample: program, seed, integrator, instruction set and so on. Empty: samples of the one
+// belong together with those of the other.
+std::vector<std::string> sample_changes(const Metadata& then, const Metadata& now);
+
+} // namespace plumb

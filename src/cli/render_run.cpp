@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: MIT
+#include "cli/render_run.h"
+
+#include "cli/checkpoint.h"
+#include "cli/console.h"
+#include "cli/interrupt.h"
+#include "cli/progress.h"
+#include "cli/text.h"
+
+#include "plumb/stop_rules.h"
+
+#include <atomic>
+#include <chrono>
+#include <fmt/format.h>
+
+namespace plumb {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Whether it is time for another checkpoint. due() is asked from all threads.
+class Timer {
+public:
+    explicit Timer(double seconds)
+        : period_(std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds)))
+    {
+        restart();
+    }
+    bool due() const { return Clock::now().time_since_epoch().count() >= next_; }
+    void restart() { next_ = (Clock::now() + period_).time_since_epoch().count(); }
+
+private:
+    Clock::duration period_;
+    std::atomic<Clock::rep> next_;
+};
+
+StopRules stop_rules(const Options& options, const LoadedScene& scene)
+{
+    StopRules rules{render_samples(scene.job, options.render), options.stop.seconds,
+                    options.stop.relative_error};
+    const bool other_rule = rules.seconds || rules.relative_error;
+    if (other_rule && !options.load.samples_per_pixel) rules.samples_per_pixel = film_max_samples;
+    return rules;
+}
+
+class Runner {
+public:
+    Runner(const Options& options, const LoadedScene& scene, const Metadata& header)
+        : options_(options),
+          header_(header),
+          rules_(stop_rules(options, scene)),
+          window_(render_window(scene.job, options.render)),
+          resolution_(scene.job.camera->resolution()),
+          timer_(options.checkpoint.every_seconds),
+          rendering_(scene.job, options.render, start())
+    {}
+
+    RenderRun run()
+    {
+        const InterruptGuard guard;
+        bool all = false;
+        {
+            ProgressDisplay display(options_.quiet);
+            display_ = &display;
+            all = take_all();
+        }
+        const int signal = all ? 0 : InterruptGuard::signal();
+        if (signal != 0) stop_ = interruption;
+        if (has_checkpoint()) save();
+        return {std::move(rendering_).finish(), stop_, signal};
+    }
+
+private:
+    bool has_checkpoint() const { return !options_.checkpoint.file.empty(); }
+
+    void save() const
+    {
+        Metadata header = header_;
+        if (!stop_.empty()) header.emplace_back("plumb:workStop", stop_);
+        save_checkpoint(options_.checkpoint.file, rendering_.state(), resolution_, header);
+    }
+
+    RenderState start() const
+    {
+        const std::string& name = options_.checkpoint.file;
+        std::optional<StateFile> file;
+        if (options_.checkpoint.resume) file = load_checkpoint(name, header_);
+        if (!file) {
+            if (options_.checkpoint.resume && !options_.quiet)
+                print_log(fmt::format("there is no '{}' yet: starting with the first sample", name));
+            return {Film(window_, resolution_.x, resolution_.y), {}, {}, {}};
+        }
+        const PixelRect& window = file->state.film.window();
+        if (window != window_)
+            throw Error(fmt::format("cannot go on from '{}': it has the pixels {},{},{},{}, not {},{},{},{}",
+                                    name, window.x, window.y, window.width, window.height, window_.x,
+                                    window_.y, window_.width, window_.height));
+        if (const SampleSet more = file->state.taken - most_wanted(); !more.empty())
+            throw Error(fmt::format("cannot go on from '{}': it has samples that are not asked for: {}", name,
+                                    more.text()));
+        if (!options_.quiet)
+            print_log(fmt::format("going on from '{}', which has {} samples", name,
+                                  count_text(file->state.taken.count())));
+        return std::move(file->state);
+    }
+
+    // What is to be taken if no other rule stops it.
+    SampleSet most_wanted() const
+    {
+        if (options_.repeat) return options_.repeat->samples;
+        if (const auto& part = options_.part)
+            return part_of(window_, rules_.samples_per_pixel, part->by, part->index, part->count);
+        return SampleSet(SampleBlock{window_, 0, rules_.samples_per_pixel});
+    }
+
+    // False: a signal came.
+    bool take_all()
+    {
+        if (options_.repeat) stop_ = options_.repeat->stop;
+        if (!options_.repeat && (rules_.seconds || rules_.relative_error)) return take_until_stopped();
+        return take(most_wanted());
+    }
+
+    bool take_until_stopped()
+    {
+        for (std::uint64_t samples = fewest_samples();;) {
+            if (rules_.relative_error && is_look(samples) && look(samples)) return true;
+            const std::uint64_t next = next_stop(rules_, samples, rendering_.state().seconds);
+            if (next == samples) {
+                if (samples < rules_.samples_per_pixel)
+                    stop_ = fmt::format("it stopped at the time limit of {}", duration_text(*rules_.seconds));
+                return true;
+            }
+            if (!take(SampleSet(SampleBlock{window_, 0, next}))) return false;
+            samples = next;
+        }
+    }
+
+    std::uint64_t fewest_samples() const { return rendering_.state().taken.samples_per_pixel(window_).least; }
+
+    // Whether the noise is low enough.
+    bool look(std::uint64_t samples)
+    {
+        const auto noise = estimate_relative_noise(rendering_.state().film);
+        if (!noise) return false;
+        samples_expected_ = static_cast<double>(samples) * sqr(noise->high / *rules_.relative_error);
+        if (noise->high > *rules_.relative_error) return false;
+        stop_ = fmt::format("it stopped when its own noise was below {}", *rules_.relative_error);
+        return true;
+    }
+
+    // Takes the wanted samples, with checkpoints; false: a signal came.
+    bool take(const SampleSet& wanted)
+    {
+        const auto pause = [this] {
+            return InterruptGuard::signal() != 0 || (has_checkpoint() && timer_.due());
+        };
+        while (!rendering_.take(
+            wanted, [this](const Progress& progress) { show(progress); }, pause)) {
+            if (InterruptGuard::signal() != 0) return false;
+            try {
+                save();
+            } catch (const Error& error) {
+                print_log(fmt::format("warning: {}; rendering goes on", error.what()));
+            }
+            timer_.restart();
+        }
+        return true;
+    }
+
+    // The total is what the rules let expect.
+    void show(Progress progress)
+    {
+        const double pixels = static_cast<double>(window_.width) * static_cast<double>(window_.height);
+        const double seconds = rendering_.state().seconds + progress.seconds;
+        double total = pixels * static_cast<double>(rules_.samples_per_pixel);
+        if (rules_.seconds && seconds > 0.0)
+            total = std::min(total, static_cast<double>(progress.samples_done) * *rules_.seconds / seconds);
+        if (rules_.relative_error && samples_expected_ > 0.0)
+            total = std::min(total, pixels * samples_expected_);
+        if (rules_.seconds || rules_.relative_error)
+            progress.samples_total = std::max(static_cast<std::uint64_t>(total), progress.samples_done + 1);
+        display_->show(progress);
+    }
+
+    const Options& options_;
+    const Metadata& header_;
+    const StopRules rules_;
+    const PixelRect window_;
+    const Vec2i resolution_;
+    Timer timer_;
+    Rendering rendering_;
+    ProgressDisplay* display_ = nullptr; // while run() is running
+    std::string stop_;
+    double samples_expected_ = 0.0; // for each pixel, by the last look; 0: not known
+};
+
+} // namespace
+
+RenderRun run_rendering(const Options& options, const LoadedScene& scene, const Metadata& header)
+{
+    return Runner(options, scene, header).run();
+}
+
+} // namespace plumb

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// What our files of pictures have in common with OpenImageIO's idea of them; for src/io/image*.cpp.
+
+#include "plumb/image.h"
+
+#include <OpenImageIO/imageio.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace plumb {
+
+// Why there is no file at `path` to be read, for an error message; empty: there is one.
+std::string_view problem_of_file(const std::filesystem::path& path);
+
+// The file at `name`, opened by a reader for what it holds. Throws Error with the reason.
+std::unique_ptr<OIIO::ImageInput> open_image(const std::string& name);
+
+Metadata metadata_of(const OIIO::ImageSpec& spec);
+void put_metadata(OIIO::ImageSpec& spec, const Metadata& metadata);
+
+// What a file of that name (its extension says the format) and spec will hold; `write` hands over the pixels and says
+// whether that went well. Throws Error with the reason.
+std::vector<unsigned char> encode_image(const std::string& name, const OIIO::ImageSpec& spec,
+                                        const std::function<bool(OIIO::ImageOutput&)>& write);
+
+} // namespace plumb

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+
+#include "io/temporary_file.h"
+
+#include "plumb/error.h"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace plumb {
+
+namespace fs = std::filesystem;
+
+TemporaryFile::TemporaryFile(const fs::path& target) : target_(target)
+{
+    std::error_code missing;
+    final_ = fs::is_symlink(target, missing) ? fs::weakly_canonical(target, missing) : target;
+    if (final_.empty() || missing) final_ = target;
+    constexpr int most_at_once = 1000;
+    constexpr std::size_t longest = 200; // a name has at most 255 bytes
+    const std::string name = final_.filename().string().substr(0, longest);
+    for (int i = 0; i < most_at_once; ++i) {
+        path_ = final_;
+        path_.replace_filename(fmt::format(".{}.part{}", name, i));
+        if (open_free_file()) return;
+    }
+    fail(EBUSY);
+}
+
+TemporaryFile::~TemporaryFile()
+{
+    if (descriptor_ < 0) return;
+    unlink(path_.c_str()); // while it is still locked: nobody else has it
+    close(descriptor_);
+}
+
+// The lock tells whether somebody works on it; the kernel drops it when the process ends, however it ends.
+bool TemporaryFile::open_free_file()
+{
+    descriptor_ = open(path_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
+    if (descriptor_ < 0) fail(errno);
+    const bool taken = flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    struct stat ours {};
+    struct stat named {};
+    // Between our opening and locking it another process may have renamed or removed it.
+    const bool is_still_there = fstat(descriptor_, &ours) == 0 && stat(path_.c_str(), &named) == 0 &&
+                                ours.st_ino == named.st_ino && ours.st_dev == named.st_dev;
+    if (!taken && is_still_there) {
+        if (ftruncate(descriptor_, 0) == 0) return true;
+        const int problem = errno;
+        close(descriptor_);
+        fail(problem);
+    }
+    close(std::exchange(descriptor_, -1));
+    return false;
+}
+
+void TemporaryFile::write(std::span<const unsigned char> bytes)
+{
+    while (!bytes.empty()) {
+        const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+        if (written < 0 && errno == EINTR) continue;
+        if (written <= 0) fail(written < 0 ? errno : EIO);
+        bytes = bytes.subspan(static_cast<std::size_t>(written));
+    }
+}
+
+void TemporaryFile::write(std::string_view text)
+{
+    write(std::span(reinterpret_cast<const unsigned char*>(text.data()), text.size()));
+}
+
+void TemporaryFile::flush()
+{
+    if (fsync(descriptor_) != 0) fail(errno);
+}
+
+void TemporaryFile::take_place()
+{
+    // Some file systems say only on closing that they could not write; closing a copy keeps the lock.
+    const int copy = dup(descriptor_);
+    if (copy < 0 || close(copy) != 0) fail(errno);
+    if (std::rename(path_.c_str(), final_.c_str()) != 0) fail(errno);
+    close(std::exchange(descriptor_, -1));
+}
+
+void TemporaryFile::fail(int problem) const
+{
+    throw Error(fmt::format("cannot write '{}': {}", target_.string(), std::strerror(problem)));
+}
+
+void flush_folder_of(const fs::path& path)
+{
+    const fs::path folder = path.has_parent_path() ? path.parent_path() : ".";
+    const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    const bool good =
+        descriptor >= 0 && (fsync(descriptor) == 0 || errno == EINVAL); // EINVAL: cannot, and need not
+    const int problem = errno;
+    if (descriptor >= 0) close(descriptor);
+    if (!good) throw Error(fmt::format("cannot write '{}': {}", path.string(), std::strerror(problem)));
+}
+
+} // namespace plumb

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// What a picture's file says of it.
+
+#include "plumb/image.h"
+
+#include <map>
+
+namespace plumb {
+
+using PictureHeader = std::map<std::string, MetadataValue>;
+
+inline PictureHeader header(const std::filesystem::path& image)
+{
+    const Image read = read_image(image, false);
+    return {read.metadata.begin(), read.metadata.end()};
+}
+
+inline int integer(const PictureHeader& header, const std::string& name)
+{
+    return std::get<int>(header.at(name));
+}
+
+inline std::string text(const PictureHeader& header, const std::string& name)
+{
+    const auto found = header.find(name);
+    if (found == header.end()) return "no " + name;
+    const auto* value = std::get_if<std::string>(&found->second);
+    return value ? *value : name + " is no text";
+}
+
+} // namespace plumb
