@@ -125,9 +125,17 @@ Rendered render_and_write(const Options& options, const LoadedScene& scene)
         image.metadata = header;
         const Metadata evidence = evidence_header(report.evidence);
         image.metadata.insert(image.metadata.end(), evidence.begin(), evidence.end());
-        write_pictures(images, image, options.exposure,
-                       std::filesystem::path(options.checkpoint.file).parent_path());
+        std::vector<std::string> problems;
+        if (!run.problem.empty()) problems.push_back(run.problem);
+        try {
+            write_pictures(images, image, options.exposure,
+                           std::filesystem::path(options.checkpoint.file).parent_path());
+        } catch (const Error& error) {
+            problems.emplace_back(error.what());
+        }
+        if (!problems.empty()) throw Error(list_text(problems));
     }
+    if (!run.problem.empty()) throw Error(run.problem);
 
     report.write_seconds = writing.seconds();
     report.total_seconds = scene.parse_seconds + scene.build_seconds + since_loaded.seconds();
