@@ -81,7 +81,7 @@ public:
         const auto second = static_cast<float>(b.v);
         const float both = std::min(static_cast<float>(b.u + b.v), 1.f);
 
-        const Vec2f uv = primitive == 0 ? Vec2f(both, second) : Vec2f(first, both);
+        const Vec2f uv(select(primitive == 0, both, first), select(primitive == 0, second, both));
         return {triangle_point(t, b), error_, normal_, shading_, uv, primitive};
     }
 
@@ -91,7 +91,8 @@ public:
         const double x = u.x;
         const double y = u.y;
         const std::size_t own = 1 + 2 * static_cast<std::size_t>(y > x);
-        const Barycentric b{std::abs(x - y), std::min(x, y)};
+        const double difference = std::abs(x - y);
+        const Barycentric b{difference, (x + y - difference) * 0.5}; // min(x, y), exactly, and without a jump
         return {triangle_point({corners_[0], corners_[own], corners_[2]}, b), error_, normal_, u, area_pdf_};
     }
 
