@@ -4,7 +4,7 @@
 
 #include "plumb/sampling.h"
 
-#include "plumb/elementary.h"
+#include "math/series.h"
 
 namespace plumb {
 

@@ -71,15 +71,6 @@ bool Scene::occluded(const Ray& ray) const
     return accel_->occluded(ray);
 }
 
-Ray Scene::shadow_ray(const SurfacePoint& from, const EmitterSample& light)
-{
-    if (light.distance == infinity) return from.spawn_ray(light.wi);
-    // Both ends are moved off their surfaces towards each other; what lies strictly between them is in the way.
-    const Vec3f origin = offset_origin(from.position, from.error, from.geometric_normal, light.wi);
-    const Vec3f target = offset_origin(light.position, light.error, light.normal, -light.wi);
-    return {origin, target - origin, 0.f, one_minus_epsilon};
-}
-
 std::optional<EmitterSample> Scene::sample_emitter(const Vec3f& from, double u_choice, const Vec2f& u,
                                                    Measure measure) const
 {
