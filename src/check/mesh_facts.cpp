@@ -49,7 +49,7 @@ std::vector<Edge> edges_of(const Description& shape)
     edges.reserve(3 * shape.size());
     for (std::size_t i = 0; i < shape.size(); ++i) {
         const TriangleCorners t = shape.triangle(i);
-        if (!(length(triangle_cross(t)) > 0.0)) continue;
+        if (!(length(triangle_cross(t.edges())) > 0.0)) continue;
         edges.insert(edges.end(),
                      {edge_between(t.p0, t.p1), edge_between(t.p1, t.p2), edge_between(t.p2, t.p0)});
     }
@@ -71,8 +71,8 @@ std::vector<Edge> open_among(const std::vector<Edge>& edges)
 // The front of a triangle, asked of the shape where a ray meets its middle.
 Vec3d front_of(const Shape& shape, const TriangleCorners& triangle, std::uint32_t primitive)
 {
-    const Vec3f normal(normalize(triangle_cross(triangle)));
-    const Ray ray{triangle_point(triangle, {1.0 / 3.0, 1.0 / 3.0}) + normal, -normal};
+    const Vec3f normal(normalize(triangle_cross(triangle.edges())));
+    const Ray ray{triangle_point(triangle.edges(), {1.0 / 3.0, 1.0 / 3.0}) + normal, -normal};
     return Vec3d(shape.surface_at(ray, primitive).geometric_normal);
 }
 
@@ -83,7 +83,7 @@ double volume_of(const Shape& shape, const Description& description)
     const Vec3d from(description.triangle(0).p0);
     for (std::uint32_t i = 0; i < description.size(); ++i) {
         const TriangleCorners triangle = description.triangle(i);
-        const Vec3d normal = triangle_cross(triangle);
+        const Vec3d normal = triangle_cross(triangle.edges());
         if (!(length(normal) > 0.0)) continue;
         const double side = dot(front_of(shape, triangle, i), normal) < 0.0 ? -1.0 : 1.0;
         volume += side * dot(Vec3d(triangle.p0) - from, normal) / 6.0;

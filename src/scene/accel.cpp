@@ -210,7 +210,11 @@ Scene::Accel::Accel(const std::vector<SceneObject>& objects, const std::string& 
         throw Error(
             fmt::format("this processor cannot run Embree with {}; choose another with --isa", set.name));
     device_ = rtcNewDevice(fmt::format("isa={}", set.embree_name).c_str());
-    if (device_ == nullptr) throw Error(fmt::format("Embree cannot start with instruction set {}", set.name));
+    // The processor can run it, so that only the machine's resources are left as a cause.
+    if (device_ == nullptr)
+        throw Error(fmt::format(
+            "Embree cannot start with instruction set {} (error {}): there may be too little memory",
+            set.name, static_cast<int>(rtcGetDeviceError(nullptr))));
     rtcSetDeviceErrorFunction(device_, on_device_error, nullptr);
 
     scene_ = rtcNewScene(device_);

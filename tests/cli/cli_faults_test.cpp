@@ -46,17 +46,18 @@ RunResult lose_folder(const SceneFolder& folder, const std::string& gone, const 
 TEST_CASE("a disk that is full leaves the last checkpoint", "[cli][faults]")
 {
     const SceneFolder folder;
-    REQUIRE(folder.run({"scene.xml", "-o", "small.exr", "--crop", "0,0,8,8", "--checkpoint", "c.exr"})
-                .exit_code == 0);
+    REQUIRE(
+        folder.run({"scene.xml", "-o", "a.exr", "--crop", "0,0,40,30", "--checkpoint", "c.exr"}).exit_code ==
+        0);
     const std::string before = read_bytes(folder / "c.exr");
     const auto files = folder.files();
     // 4 kB: too little for either file.
     const RunResult full = run_limited(folder, "ulimit -f 4",
-                                       {"scene.xml", "-o", "small.exr", "--crop", "0,0,8,8", "--checkpoint",
+                                       {"scene.xml", "-o", "a.exr", "--crop", "0,0,40,30", "--checkpoint",
                                         "c.exr", "--resume", "--spp", "9", "--quiet"});
     CHECK(full.exit_code == 1);
     CHECK(full.err ==
-          "error: cannot write 'c.exr': File too large and cannot write 'small.exr': File too large\n");
+          "error: cannot write 'c.exr': File too large and cannot write 'a.exr': File too large\n");
     CHECK(read_bytes(folder / "c.exr") == before);
     CHECK(folder.files() == files); // and nothing half-written
 }
