@@ -25,7 +25,7 @@ HEADERS = {
     "scene": "scene tracer",
     "render": "evidence film render sample_set state_file stop_rules",
     "check": "check",
-    "scene_file": "load scene_file test_file",
+    "scene_file": "load scene_file suite test_file",
     "course_tests": "course_test",
     "compare": "compare flip",
 }

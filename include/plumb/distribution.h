@@ -5,6 +5,7 @@
 //
 // Built serially in the order given, in double precision, so that it has the same bits everywhere.
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -29,10 +30,16 @@ public:
 
     // u in [0, 1). Never chooses a thing of weight 0, nor one whose share of the sum is below 2^-53, the step of u:
     // the probability of what is chosen is positive. Needs can_sample().
-    Choice sample(double u) const;
+    Choice sample(double u) const
+    {
+        return cdf_.size() == 2 ? Choice{0, 1.f, std::clamp(u, 0.0, largest_below_one)} : sample_several(u);
+    }
     float probability(std::size_t index) const { return static_cast<float>(cdf_[index + 1] - cdf_[index]); }
 
 private:
+    static constexpr double largest_below_one = 0x1.fffffffffffffp-1;
+    Choice sample_several(double u) const;
+
     std::vector<double> cdf_; // size + 1 values from 0 to 1
     double sum_ = 0.0;
 };

@@ -15,8 +15,7 @@ struct SinCos {
     float cos;
 };
 
-SinCos sin_cos(float x);                 // |x| <= 1e5
-SinCos sin_cos_in_first_octant(float x); // |x| <= pi/4: the same without the reduction
+SinCos sin_cos(float x); // |x| <= 1e5
 float sin(float x);
 float cos(float x);
 float tan(float x);

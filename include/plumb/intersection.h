@@ -14,23 +14,33 @@
 
 namespace plumb {
 
+// A corner of a triangle and the edges from there to the others, in double precision: differences of floats are (nearly
+// always) exact then.
+struct TriangleEdges {
+    TriangleEdges() = default;
+    TriangleEdges(const Vec3f& p0, const Vec3f& p1, const Vec3f& p2)
+        : corner(p0), edge1(Vec3d(p1) - corner), edge2(Vec3d(p2) - corner)
+    {}
+
+    Vec3d corner{0.0};
+    Vec3d edge1{0.0};
+    Vec3d edge2{0.0};
+};
+
 // Barycentric coordinates of the point where the ray meets the plane of the triangle, moved into the triangle if
-// rounding left them outside: position = (1 - u - v) p0 + u p1 + v p2.
+// rounding left them outside: position = corner + u edge1 + v edge2.
 struct Barycentric {
     double u = 0.0;
     double v = 0.0;
 };
-inline Barycentric intersect_triangle(const Ray& ray, const Vec3f& p0, const Vec3f& p1, const Vec3f& p2)
+inline Barycentric intersect_triangle(const Ray& ray, const TriangleEdges& triangle)
 {
-    // [1], equation 4. Differences of floats are (nearly always) exact in double precision.
+    // [1], equation 4.
     const Vec3d direction(ray.direction);
-    const Vec3d corner(p0);
-    const Vec3d edge1 = Vec3d(p1) - corner;
-    const Vec3d edge2 = Vec3d(p2) - corner;
-    const Vec3d to_origin = Vec3d(ray.origin) - corner;
-    const Vec3d p = cross(direction, edge2);
-    const Vec3d q = cross(to_origin, edge1);
-    const double scale = 1.0 / dot(edge1, p);
+    const Vec3d to_origin = Vec3d(ray.origin) - triangle.corner;
+    const Vec3d p = cross(direction, triangle.edge2);
+    const Vec3d q = cross(to_origin, triangle.edge1);
+    const double scale = 1.0 / dot(triangle.edge1, p);
     double u = dot(to_origin, p) * scale;
     double v = dot(direction, q) * scale;
 

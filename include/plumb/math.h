@@ -11,6 +11,7 @@
 #include <Imath/ImathVec.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -46,6 +47,14 @@ constexpr T sqr(T x)
 inline float lerp(float a, float b, float t)
 {
     return (1.f - t) * a + t * b;
+}
+
+// condition ? a : b, without a jump: for where the condition is a matter of chance, and no processor guesses that.
+inline float select(bool condition, float a, float b)
+{
+    const auto mask = -static_cast<std::uint32_t>(condition);
+    return std::bit_cast<float>((std::bit_cast<std::uint32_t>(a) & mask) |
+                                (std::bit_cast<std::uint32_t>(b) & ~mask));
 }
 
 // sqrt of a number that rounding may have pushed below 0.

@@ -27,19 +27,17 @@ public:
     // pixel: in coordinates of the full picture, 0 <= x, y < 65536, so that a crop draws the numbers of the whole.
     virtual void start(std::uint64_t seed, Vec2i pixel, std::uint64_t sample_index) = 0;
 
-    float next_1d() { return to_unit(next_word()); }
+    float next_1d() { return to_unit(next_words<1>()[0]); }
     Vec2f next_2d()
     {
-        const float x = to_unit(next_word());
-        const float y = to_unit(next_word());
-        return {x, y};
+        const auto [x, y] = next_words<2>();
+        return {to_unit(x), to_unit(y)};
     }
     // One dimension with 53 bits, for choosing among many (emitters, triangles, texels): takes the place of two.
     double next_choice()
     {
-        const std::uint64_t high = next_word();
-        const std::uint64_t low = next_word();
-        return static_cast<double>((high << 32 | low) >> 11) * 0x1p-53;
+        const auto [high, low] = next_words<2>();
+        return static_cast<double>((std::uint64_t{high} << 32 | low) >> 11) * 0x1p-53;
     }
 
 protected:
@@ -51,14 +49,20 @@ protected:
 private:
     static float to_unit(std::uint32_t word) { return static_cast<float>(word >> 8) * 0x1p-24f; }
 
-    std::uint32_t next_word()
+    template <std::size_t count>
+    std::array<std::uint32_t, count> next_words()
     {
-        if (used_ == block_.size()) {
-            fill_block();
-            used_ = 0;
+        std::array<std::uint32_t, count> words;
+        if (used_ + count <= block_.size()) [[likely]] {
+            for (std::size_t i = 0; i < count; ++i) words[i] = block_[used_ + i];
+            used_ += count;
+        } else {
+            for (std::uint32_t& word : words) word = next_word_across_blocks();
         }
-        return block_[used_++];
+        return words;
     }
+
+    std::uint32_t next_word_across_blocks();
 
     std::size_t used_ = block_.size();
 };

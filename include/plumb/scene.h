@@ -40,7 +40,14 @@ public:
     std::optional<SurfacePoint> intersect(const Ray& ray) const;
     bool occluded(const Ray& ray) const;
     // The ray between a surface point and a light's chosen point, clear of both surfaces.
-    static Ray shadow_ray(const SurfacePoint& from, const EmitterSample& light);
+    static Ray shadow_ray(const SurfacePoint& from, const EmitterSample& light)
+    {
+        if (light.distance == infinity) return from.spawn_ray(light.wi);
+        // Both ends are moved off their surfaces towards each other; what lies strictly between them is in the way.
+        const Vec3f origin = offset_origin(from.position, from.error, from.geometric_normal, light.wi);
+        const Vec3f target = offset_origin(light.position, light.error, light.normal, -light.wi);
+        return {origin, target - origin, 0.f, one_minus_epsilon};
+    }
 
     // A point of one emitter, chosen by u_choice (which is used up: what is left of it selects a part of the
     // emitter), among all or among point and directional lights alone. pdf includes the choice.

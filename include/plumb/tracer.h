@@ -47,9 +47,19 @@ public:
             return intersect_with_log(ray, kind);
         return scene_.intersect(ray);
     }
-    bool occluded(const Ray& ray);
+    bool occluded(const Ray& ray)
+    {
+        ++counts_.shadow;
+        if (is_traceable(ray)) [[likely]]
+            return scene_.occluded(ray);
+        failed_ = true;
+        return true;
+    }
     // Whether light from the sampled point arrives at `from`.
-    bool visible(const SurfacePoint& from, const EmitterSample& light);
+    bool visible(const SurfacePoint& from, const EmitterSample& light)
+    {
+        return !occluded(Scene::shadow_ray(from, light));
+    }
 
     // Whether a ray since the last call was not traceable (ray.h): it met nothing and saw nothing, and the sample that
     // asked for it must not count.

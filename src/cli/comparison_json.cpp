@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "cli/comparison_text.h"
-#include "cli/json.h"
 
 namespace plumb {
 
@@ -147,13 +146,8 @@ void write_limits(JsonWriter& json, const Comparison& c, const CompareOptions& o
 
 } // namespace
 
-std::string comparison_json(const Comparison& comparison, const CompareOptions& options, const std::string& a,
-                            const std::string& b)
+void write_comparison(JsonWriter& json, const Comparison& comparison, const CompareOptions& options)
 {
-    JsonWriter json;
-    json.begin_object();
-    json.text("a", a);
-    json.text("b", b);
     json.text("outcome", outcome_word(comparison.outcome));
     json.boolean("identical", comparison.identical);
     json.begin_array("resolution");
@@ -165,6 +159,16 @@ std::string comparison_json(const Comparison& comparison, const CompareOptions& 
     write_non_finite(json, comparison.non_finite);
     write_significance(json, comparison, options);
     write_limits(json, comparison, options);
+}
+
+std::string comparison_json(const Comparison& comparison, const CompareOptions& options, const std::string& a,
+                            const std::string& b)
+{
+    JsonWriter json;
+    json.begin_object();
+    json.text("a", a);
+    json.text("b", b);
+    write_comparison(json, comparison, options);
     json.end_object();
     return std::move(json).finish();
 }

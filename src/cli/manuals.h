@@ -8,6 +8,7 @@
 namespace plumb {
 
 std::string_view agree_manual();
+std::string_view batch_manual();
 std::string_view check_manual();
 std::string_view compare_manual();
 std::string_view merge_manual();

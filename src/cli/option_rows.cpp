@@ -26,6 +26,7 @@ constexpr unsigned test_only = verb_bit(Verb::test);
 constexpr unsigned compare_only = verb_bit(Verb::compare);
 constexpr unsigned agree_only = verb_bit(Verb::agree);
 constexpr unsigned check_only = verb_bit(Verb::check);
+constexpr unsigned batch_only = verb_bit(Verb::batch);
 constexpr unsigned loads_scene = both | agree_only | check_only;
 constexpr unsigned loads = loads_scene | test_only; // with the options of load_scene()
 constexpr unsigned every_verb = ~0u;
@@ -74,6 +75,13 @@ const OptionRow rows[] = {
      [](Options& o, Name, Text) { o.variance = false; }},
     {Topic::output, rendering | merge_only | test_only | compare_only | agree_only, "--json", "FILE",
      "write a report of the run; - is standard output", [](Options& o, Name, Text t) { o.json = t; }},
+    {Topic::output, batch_only, "--out", "FOLDER", "for pictures and reports (default batch/SUITE)",
+     [](Options& o, Name n, Text t) {
+         if (t.empty()) throw UsageError(fmt::format("{} needs a folder", n));
+         o.batch.folder = t;
+     }},
+    {Topic::output, batch_only, "--update", "", "make the references instead of comparing with them",
+     [](Options& o, Name, Text) { o.batch.update = true; }},
     {Topic::output, compare_only, "--diff", "FILE", "write the difference in false colours, with a scale",
      [](Options& o, Name, Text t) { o.compare.difference = t; }},
     {Topic::output, compare_only, "--diff-of", "WHAT",
@@ -135,8 +143,8 @@ const OptionRow rows[] = {
      "until the noise is below E times the picture's mean (its RMSE,\nthe upper end of the 95 % interval)",
      [](Options& o, Name n, Text t) { o.stop.relative_error = parse_double(n, t, 1e-9, 1e3); }},
 
-    {Topic::scene, loads, "-D,--define", "NAME=VALUE", "value of $NAME in the scene file; may be repeated",
-     define, true},
+    {Topic::scene, loads | batch_only, "-D,--define", "NAME=VALUE",
+     "value of $NAME in the file; may be repeated", define, true},
     {Topic::scene, loads, "--dialect", "NAME", "auto, plumb, epfl, eth, zaragoza or mcgill (default auto)",
      [](Options& o, Name n, Text t) {
          o.load.dialect = dialect_from_string(parse_word(n, t, dialect_words()));
@@ -160,14 +168,24 @@ const OptionRow rows[] = {
          o.scene = t;
      }},
 
-    {Topic::running, rendering | test_only | agree_only, "-t,--threads", "N",
+    {Topic::running, batch_only, "--filter", "TEXT",
+     "only pictures whose names contain it, or match it if it has * or ?",
+     [](Options& o, Name n, Text t) {
+         if (t.empty()) throw UsageError(fmt::format("{} needs a text", n));
+         o.batch.filter = t;
+     }},
+    {Topic::running, batch_only, "--fail-fast", "", "stop at the first that does not pass",
+     [](Options& o, Name, Text) { o.batch.fail_fast = true; }},
+    {Topic::running, batch_only, "--force", "", "render also what is up to date",
+     [](Options& o, Name, Text) { o.batch.force = true; }},
+    {Topic::running, rendering | test_only | agree_only | batch_only, "-t,--threads", "N",
      "how many (default: all there are)",
      [](Options& o, Name n, Text t) { o.render.threads = static_cast<int>(parse_integer(n, t, 1, 1024)); }},
     {Topic::running, loads, "--isa", "NAME", "of Embree: sse2, sse4.2, avx, avx2 or avx512 (default avx2)",
      [](Options& o, Name n, Text t) {
          o.load.instruction_set = parse_word(n, t, {"sse2", "sse4.2", "avx", "avx2", "avx512"});
      }},
-    {Topic::running, loads | rerun_only | merge_only | compare_only, "--quiet", "",
+    {Topic::running, loads | rerun_only | merge_only | compare_only | batch_only, "--quiet", "",
      "print nothing but errors", [](Options& o, Name, Text) { o.quiet = true; }},
     {Topic::running, loads_scene | rerun_only, "--verbose", "", "print facts about the scene",
      [](Options& o, Name, Text) { o.verbose = true; }},
@@ -248,9 +266,11 @@ std::string help_text(Verb verb)
         text = fmt::format("usage: {}\n", asked.command());
         if (asked.manual) text += asked.manual();
     }
+    const OptionRow* last = nullptr;
     for (const OptionRow& row : rows) {
         if (!row.goes_with(verb)) continue;
-        if (&row == rows || row.topic != (&row - 1)->topic) text += "\n";
+        if (!last || row.topic != last->topic) text += "\n";
+        last = &row;
         std::string names = row.names;
         names = names.starts_with("--") ? "    " + names : names.replace(2, 1, ", ");
         std::string_view help = row.help;

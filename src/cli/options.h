@@ -13,7 +13,7 @@
 
 namespace plumb {
 
-enum class Verb { render, types, info, replay, rerun, merge, test, compare, agree, check };
+enum class Verb { render, types, info, replay, rerun, merge, test, compare, agree, check, batch };
 
 // The command line makes no sense: main() prints the message and exits with 2.
 class UsageError : public std::runtime_error {
@@ -61,6 +61,15 @@ struct RepeatRequest {
     std::string stop; // Evidence::stop
 };
 
+// What `renderer batch` does with a suite.
+struct BatchRequest {
+    std::string folder; // for pictures and reports; empty: batch/<suite>
+    std::string filter; // empty: all entries
+    bool fail_fast = false;
+    bool update = false; // make the references instead
+    bool force = false;  // also what is up to date
+};
+
 struct Options {
     Verb verb = Verb::render;
     bool help = false;
@@ -72,7 +81,8 @@ struct Options {
     std::vector<std::string> outputs; // none: <scene>_<spp>.exr and .png
     std::string json;                 // empty: no report; "-": standard output
     float exposure = 0.f;
-    bool variance = true; // .exr files also hold the error bars
+    bool keep_interrupted = true; // write the picture although a signal ended the rendering
+    bool variance = true;         // .exr files also hold the error bars
     bool quiet = false;
     bool verbose = false;
     LoadOptions load;     // with samples_per_pixel, if given
@@ -81,6 +91,7 @@ struct Options {
     std::uint64_t sample = 0;
     CompareRequest compare;
     AgreeRequest agree;
+    BatchRequest batch;
     StopRequest stop;
     CheckpointRequest checkpoint;
     std::optional<PartRequest> part;

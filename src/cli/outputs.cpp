@@ -35,20 +35,32 @@ std::vector<std::string> all_files(std::vector<std::string> images, const std::s
     return images;
 }
 
-// A picture may have taken long. Where it is now, for a message; empty: nowhere.
+// A name in the folder that no file has: "a.exr", "a-1.exr", "a-2.exr" and so on.
+std::filesystem::path free_name(const std::filesystem::path& folder, const std::filesystem::path& file)
+{
+    std::filesystem::path path = folder / file;
+    std::error_code ignored;
+    for (int i = 1; std::filesystem::exists(path, ignored); ++i)
+        path = folder / fmt::format("{}-{}{}", file.stem().string(), i, file.extension().string());
+    return path;
+}
+
+// A picture may have taken long. If its folder is gone it goes into the refuge, or else the current folder. Where it is
+// then, for a message; empty: nowhere.
 std::string write_into_refuge(const std::filesystem::path& output, const Image& image, float exposure,
                               const std::filesystem::path& refuge)
 {
     std::error_code ignored;
     if (!output.has_parent_path() || std::filesystem::exists(output.parent_path(), ignored)) return {};
-    const std::filesystem::path other = refuge / output.filename();
-    if (std::filesystem::exists(other, ignored)) return {}; // not over what is there
-    try {
-        write_image(other, image, exposure);
-    } catch (const Error&) {
-        return {};
+    for (const std::filesystem::path& folder : {refuge, std::filesystem::path()}) {
+        const std::filesystem::path path = free_name(folder, output.filename());
+        try {
+            write_image(path, image, exposure);
+            return fmt::format("; the picture is in '{}' instead", path.string());
+        } catch (const Error&) { // the message is that of the file that was asked for
+        }
     }
-    return fmt::format("; the picture is in '{}' instead", other.string());
+    return {};
 }
 
 } // namespace

@@ -21,7 +21,7 @@ void keep_inputs(const std::vector<std::filesystem::path>& inputs, const std::ve
                  const std::string& json, std::string_view reason);
 
 // Writes the picture to all of these. One that cannot be written does not keep the others from being tried; if its folder
-// is gone, it is written into `refuge` instead. Throws Error, with where it is then, if any was not written where it was
+// is gone, it is written into `refuge` instead, or into the current folder. Throws Error, with where it is then, if any was not written where it was
 // to be.
 void write_pictures(const std::vector<std::string>& outputs, const Image& image, float exposure,
                     const std::filesystem::path& refuge);

@@ -101,10 +101,10 @@ int render_command(const Options& options)
     keep_checkpoint(options);
     check_outputs(with_checkpoint(options.part ? std::vector<std::string>() : options.outputs, options),
                   options.json);
-    return render_and_write(options, load_and_log(options));
+    return log_rendering(options, render_and_write(options, load_and_log(options)));
 }
 
-int render_and_write(const Options& options, const LoadedScene& scene)
+Rendered render_and_write(const Options& options, const LoadedScene& scene)
 {
     const Stopwatch since_loaded;
     const std::vector<std::string> images = images_of(options, scene);
@@ -119,24 +119,37 @@ int render_and_write(const Options& options, const LoadedScene& scene)
     Report report = make_report(options, scene, run.state,
                                 make_evidence(make_ledger(scene.job, scene.dialect), run.state, run.stop));
     report.outputs = outputs;
-    if (!images.empty()) {
+    if (!images.empty() && (run.signal == 0 || options.keep_interrupted)) {
         Image image =
             run.state.film.develop(options.variance ? Channels::color_and_evidence : Channels::color);
         image.metadata = header;
         const Metadata evidence = evidence_header(report.evidence);
         image.metadata.insert(image.metadata.end(), evidence.begin(), evidence.end());
-        write_pictures(images, image, options.exposure,
-                       std::filesystem::path(options.checkpoint.file).parent_path());
+        std::vector<std::string> problems;
+        if (!run.problem.empty()) problems.push_back(run.problem);
+        try {
+            write_pictures(images, image, options.exposure,
+                           std::filesystem::path(options.checkpoint.file).parent_path());
+        } catch (const Error& error) {
+            problems.emplace_back(error.what());
+        }
+        if (!problems.empty()) throw Error(list_text(problems));
     }
+    if (!run.problem.empty()) throw Error(run.problem);
 
     report.write_seconds = writing.seconds();
     report.total_seconds = scene.parse_seconds + scene.build_seconds + since_loaded.seconds();
     note_machine(report);
     if (!options.json.empty()) write_json(options.json, report_json(report));
-    if (!options.quiet) log_summary(report, options);
-    if (run.signal == 0) return exit_code::done;
-    log_interruption(options, run.state.taken.samples_per_pixel(run.state.film.window()));
-    return exit_code::signal + run.signal;
+    return {std::move(report), run.state.taken.samples_per_pixel(run.state.film.window()), run.signal};
+}
+
+int log_rendering(const Options& options, const Rendered& rendered)
+{
+    if (!options.quiet) log_summary(rendered.report, options);
+    if (rendered.signal == 0) return exit_code::done;
+    log_interruption(options, rendered.samples);
+    return exit_code::signal + rendered.signal;
 }
 
 } // namespace plumb

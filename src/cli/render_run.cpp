@@ -67,8 +67,13 @@ public:
         }
         const int signal = all ? 0 : InterruptGuard::signal();
         if (signal != 0) stop_ = interruption;
-        if (has_checkpoint()) save();
-        return {std::move(rendering_).finish(), stop_, signal};
+        std::string problem;
+        try {
+            if (has_checkpoint()) save();
+        } catch (const Error& error) {
+            problem = error.what(); // the picture is yet to be written
+        }
+        return {std::move(rendering_).finish(), stop_, signal, problem};
     }
 
 private:

@@ -94,7 +94,7 @@ int rerun_command(const Options& run)
     const LoadedScene scene = load_and_log(options);
     check_inputs(recipe, scene_header(options, scene));
     options.repeat->samples = samples_of(recipe, render_window(scene.job, options.render), run.subject);
-    return render_and_write(options, scene);
+    return log_rendering(options, render_and_write(options, scene));
 }
 
 } // namespace plumb

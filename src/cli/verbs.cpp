@@ -32,6 +32,8 @@ constexpr VerbRow rows[] = {
      agree_command, agree_manual},
     {Verb::test, "test", "FILE... [options]", "run a course's statistical tests", "test file", 1, any_number,
      test_command, test_manual},
+    {Verb::batch, "batch", "SUITE [options]", "render and compare all pictures of a suite", "suite", 1, 1,
+     batch_command, batch_manual},
 };
 
 } // namespace

@@ -23,12 +23,10 @@ DiscreteDistribution::DiscreteDistribution(std::span<const double> weights)
     for (double& x : cdf_) x = std::floor(x / total * 0x1p53) * 0x1p-53;
 }
 
-DiscreteDistribution::Choice DiscreteDistribution::sample(double u) const
+DiscreteDistribution::Choice DiscreteDistribution::sample_several(double u) const
 {
     // The first end above u belongs to an interval that is not empty: it begins at or below u.
-    constexpr double largest_below_one = 0x1.fffffffffffffp-1;
     const double clamped = std::clamp(u, 0.0, largest_below_one);
-    if (cdf_.size() == 2) return {0, 1.f, clamped};
     const auto end = std::upper_bound(cdf_.begin(), cdf_.end(), clamped);
     const auto index = static_cast<std::uint32_t>(end - cdf_.begin() - 1);
     const double low = cdf_[index];

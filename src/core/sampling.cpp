@@ -4,9 +4,7 @@
 
 #include "plumb/sampling.h"
 
-#include "plumb/elementary.h"
-
-#include <bit>
+#include "math/series.h"
 
 namespace plumb {
 
@@ -20,14 +18,6 @@ struct DiskPoint {
     float x;
     float y;
 };
-
-// condition ? a : b, without a jump: which way is a matter of chance here, and no processor guesses that.
-float select(bool condition, float a, float b)
-{
-    const auto mask = -static_cast<std::uint32_t>(condition);
-    return std::bit_cast<float>((std::bit_cast<std::uint32_t>(a) & mask) |
-                                (std::bit_cast<std::uint32_t>(b) & ~mask));
-}
 
 DiskPoint concentric_disk(const Vec2f& u)
 {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 
+#include "core/elided.h"
 #include "interfaces/plugin.h"
 #include "plumb/emitter.h"
 #include "plumb/shape.h"
@@ -66,25 +67,25 @@ private:
     // A point on the shape as `from` sees it; nothing from behind. measure: of the point's density.
     std::optional<EmitterSample> seen(const Vec3f& from, const ShapeSample& point, Measure measure) const
     {
-        std::optional<EmitterSample> light;
         const Vec3d towards = Vec3d(point.position) - Vec3d(from);
         const double facing = -dot(towards, Vec3d(point.normal)); // the distance times the cosine there
-        if (!(facing > 0.0)) return light;
-        const double distance2 = length_squared(towards);
-        const double distance = std::sqrt(distance2);
-
-        light.emplace();
-        light->wi = Vec3f(towards * (1.0 / distance));
-        light->distance = static_cast<float>(distance);
-        light->position = point.position;
-        light->error = point.error;
-        light->normal = point.normal;
-        light->radiance = radiance_->color(point.uv) * scale_;
-        // Per unit solid angle = per unit area * distance^2 / cosine.
-        light->pdf = measure == Measure::area
-                         ? static_cast<float>(point.pdf * (distance2 * distance / facing))
-                         : point.pdf;
-        return light;
+        if (!(facing > 0.0)) return std::nullopt;
+        return in_optional([&] {
+            const double distance2 = length_squared(towards);
+            const double distance = std::sqrt(distance2);
+            EmitterSample light;
+            light.wi = Vec3f(towards * (1.0 / distance));
+            light.distance = static_cast<float>(distance);
+            light.position = point.position;
+            light.error = point.error;
+            light.normal = point.normal;
+            light.radiance = radiance_->color(point.uv) * scale_;
+            // Per unit solid angle = per unit area * distance^2 / cosine.
+            light.pdf = measure == Measure::area
+                            ? static_cast<float>(point.pdf * (distance2 * distance / facing))
+                            : point.pdf;
+            return light;
+        });
     }
 
     std::shared_ptr<const Texture> radiance_;

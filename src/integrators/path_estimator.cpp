@@ -41,13 +41,6 @@ Color PathEstimator::direct(Tracer& tracer, Sampler& sampler, const Vertex& vert
     return Color(0.f);
 }
 
-std::optional<BsdfSample> PathEstimator::scatter(Sampler& sampler, const Vertex& vertex) const
-{
-    const float u_lobe = sampler.next_1d();
-    const Vec2f u = sampler.next_2d();
-    return vertex.sample(u_lobe, u);
-}
-
 float PathEstimator::survival(const PathState& path, int bounces) const
 {
     if (bounces <= limits_.roulette_depth) return 1.f;

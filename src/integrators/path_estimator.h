@@ -43,7 +43,12 @@ public:
         return finder_ == Finder::both ? mis_weight(heuristic_, path.pdf, light_pdf) : 1.f;
     }
     Color direct(Tracer& tracer, Sampler& sampler, const Vertex& vertex) const;
-    std::optional<BsdfSample> scatter(Sampler& sampler, const Vertex& vertex) const;
+    std::optional<BsdfSample> scatter(Sampler& sampler, const Vertex& vertex) const
+    {
+        const float u_lobe = sampler.next_1d();
+        const Vec2f u = sampler.next_2d();
+        return vertex.sample(u_lobe, u);
+    }
     float survival(const PathState& path, int bounces) const;
 
 private:

@@ -5,9 +5,10 @@
 // [1] Cody and Waite 1980, Software Manual for the Elementary Functions: a constant in parts short enough for the
 //     products with a small integer to be exact.
 // [2] Knuth, The Art of Computer Programming, volume 2, section 4.2.2: what an addition has rounded away.
-// [3] Estrin 1960: a polynomial as a tree, which is faster than Horner's chain.
 
 #include "plumb/elementary.h"
+
+#include "math/series.h"
 
 #include <algorithm>
 #include <array>
@@ -25,34 +26,6 @@ constexpr double ln2_high = 0x1.62e42feep-1; // times a small integer, this part
 constexpr double ln2_low = 0x1.a39ef35793c76p-33;
 constexpr double two_over_pi = 0x1.45f306dc9c883p-1;
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-
-// c[0] + c[1] x + c[2] x^2 + ..., by [3].
-template <std::size_t size>
-inline double polynomial(const std::array<double, size>& c, double x)
-{
-    if constexpr (size == 1) {
-        return c[0];
-    } else {
-        std::array<double, (size + 1) / 2> pairs{};
-        for (std::size_t i = 0; i < pairs.size(); ++i)
-            pairs[i] = 2 * i + 1 < size ? c[2 * i] + x * c[2 * i + 1] : c[2 * i];
-        return polynomial(pairs, x * x);
-    }
-}
-
-// size terms, beginning with the first: sign^i / (first + step i)!.
-template <std::size_t size>
-constexpr std::array<double, size> inverse_factorials(int first, int step, double sign)
-{
-    std::array<double, size> terms{};
-    double factorial = 1.0;
-    int n = 1;
-    for (std::size_t i = 0; i < size; ++i) {
-        for (; n <= first + step * static_cast<int>(i); ++n) factorial *= n;
-        terms[i] = (i % 2 == 0 ? 1.0 : sign) / factorial;
-    }
-    return terms;
-}
 
 // size terms: sign^i / (2 i + 3).
 template <std::size_t size>
@@ -124,16 +97,7 @@ inline SinCosD rotate_quadrants(double sin, double cos, std::int64_t quadrant)
             std::bit_cast<double>(c ^ exchanged ^ negative_cos)};
 }
 
-// Sine and cosine of |x| <= pi/4 with relative errors of 1e-11, for results that will be rounded to float.
-inline SinCosD sin_cos_near_zero_for_float(double x)
-{
-    static constexpr auto sin_terms = inverse_factorials<5>(3, 2, -1.0);
-    static constexpr auto cos_terms = inverse_factorials<6>(2, 2, -1.0);
-    const double x2 = x * x;
-    return {x - x * x2 * polynomial(sin_terms, x2), 1.0 - x2 * polynomial(cos_terms, x2)};
-}
-
-// The same of any x. No float below 1e5 is closer than 1e-9 to a multiple of pi/2 (but 0), so that 33 + 53 bits of
+// Sine and cosine of any x, for results that will be rounded to float. No float below 1e5 is closer than 1e-9 to a multiple of pi/2 (but 0), so that 33 + 53 bits of
 // pi/2 are enough.
 inline SinCosD sin_cos_for_float(double x)
 {
@@ -245,12 +209,6 @@ SinCos sin_cos(float x)
 {
     if (!std::isfinite(x)) return {static_cast<float>(not_a_number), static_cast<float>(not_a_number)};
     const SinCosD result = sin_cos_for_float(static_cast<double>(x));
-    return {static_cast<float>(result.sin), static_cast<float>(result.cos)};
-}
-
-SinCos sin_cos_in_first_octant(float x)
-{
-    const SinCosD result = sin_cos_near_zero_for_float(static_cast<double>(x));
     return {static_cast<float>(result.sin), static_cast<float>(result.cos)};
 }
 

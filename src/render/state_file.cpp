@@ -18,6 +18,7 @@ namespace plumb {
 namespace {
 
 constexpr int format_version = 1;
+const std::string no_samples = "none"; // files keep no empty text
 
 // "sum.R.0" to "sum.B.3" for the kind "sum".
 void add_names(std::vector<std::string>& names, const char* kind)
@@ -180,7 +181,8 @@ StateFile empty_state(const WordImage& image)
     if (const int version = entries.get<int>("plumb:state"); version != format_version)
         throw Error(
             fmt::format("its format has the version {}, and this program knows {}", version, format_version));
-    const auto samples = SampleSet::from_text(entries.get<std::string>("plumb:stateSamples"));
+    const std::string& text = entries.get<std::string>("plumb:stateSamples");
+    const auto samples = text == no_samples ? SampleSet() : SampleSet::from_text(text);
     if (!samples) throw Error("plumb:stateSamples in its header makes no sense");
     StateFile file{{Film(image.data, image.full_width, image.full_height), *samples, {}, {}},
                    without(header, "plumb:state"),
@@ -200,7 +202,7 @@ std::vector<unsigned char> encode_state(const RenderState& state, Vec2i resoluti
     WordImage image{state.film.window(), resolution.x,           resolution.y,
                     {"R", "G", "B"},     word_names(with_large), header};
     image.metadata.emplace_back("plumb:state", format_version);
-    image.metadata.emplace_back("plumb:stateSamples", state.taken.text());
+    image.metadata.emplace_back("plumb:stateSamples", state.taken.empty() ? no_samples : state.taken.text());
     image.metadata.emplace_back(
         "plumb:stateRays", fmt::format("{} {} {}", state.rays.camera, state.rays.bounce, state.rays.shadow));
     image.metadata.emplace_back("plumb:stateSeconds", static_cast<float>(state.seconds));

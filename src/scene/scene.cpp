@@ -2,9 +2,8 @@
 
 #include "plumb/scene.h"
 
+#include "core/elided.h"
 #include "scene/accel.h"
-
-#include <type_traits>
 
 namespace plumb {
 namespace {
@@ -14,15 +13,6 @@ SceneSphere bounding_sphere(const Box3f& bounds)
     if (bounds.isEmpty()) return {};
     return {bounds.center(), length(bounds.size()) * 0.5f};
 }
-
-// Converts to what the function returns: an optional that is made from one builds its value where it stays. A copy
-// would have to wait for all that was just written.
-template <class Function>
-struct Elided {
-    explicit Elided(const Function& f) : function(f) {}
-    const Function& function;
-    operator std::invoke_result_t<const Function&>() const { return function(); }
-};
 
 } // namespace
 
@@ -73,21 +63,12 @@ std::optional<SurfacePoint> Scene::intersect(const Ray& ray) const
         point.emitter_index = emitter_of_object_[hit.object];
         return point;
     };
-    return std::optional<SurfacePoint>(std::in_place, Elided{surface_point});
+    return in_optional(surface_point);
 }
 
 bool Scene::occluded(const Ray& ray) const
 {
     return accel_->occluded(ray);
-}
-
-Ray Scene::shadow_ray(const SurfacePoint& from, const EmitterSample& light)
-{
-    if (light.distance == infinity) return from.spawn_ray(light.wi);
-    // Both ends are moved off their surfaces towards each other; what lies strictly between them is in the way.
-    const Vec3f origin = offset_origin(from.position, from.error, from.geometric_normal, light.wi);
-    const Vec3f target = offset_origin(light.position, light.error, light.normal, -light.wi);
-    return {origin, target - origin, 0.f, one_minus_epsilon};
 }
 
 std::optional<EmitterSample> Scene::sample_emitter(const Vec3f& from, double u_choice, const Vec2f& u,

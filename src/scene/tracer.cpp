@@ -59,21 +59,6 @@ std::optional<SurfacePoint> Tracer::intersect_with_log(const Ray& ray, RayKind k
     return hit;
 }
 
-bool Tracer::occluded(const Ray& ray)
-{
-    ++counts_.shadow;
-    if (!is_traceable(ray)) {
-        failed_ = true;
-        return true;
-    }
-    return scene_.occluded(ray);
-}
-
-bool Tracer::visible(const SurfacePoint& from, const EmitterSample& light)
-{
-    return !occluded(Scene::shadow_ray(from, light));
-}
-
 void Tracer::log(PathEvent::Kind kind, std::string text)
 {
     if (log_ != nullptr) log_->push_back({kind, std::move(text)});

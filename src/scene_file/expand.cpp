@@ -61,6 +61,7 @@ public:
     {
         files_.push_back(root.file);
         open_.push_back(identity(root.file->path()));
+        if (root.tag == "suite") kind_ = "suite";
         gather_children(root);
         substitute_all(root);
         reject_unused_definitions();
@@ -84,7 +85,7 @@ private:
 
     void gather(Element child, std::vector<Element>& children)
     {
-        if (child.tag == "scene") gather_children(child); // of a <test>
+        if (child.tag == "scene" || child.tag == "group") gather_children(child); // of a <test>, of a <suite>
         if (child.tag == "default")
             define(child);
         else if (child.tag == "include")
@@ -142,13 +143,16 @@ private:
         }
         if (!root) return;
         files_.push_back(root->file);
-        if (root->tag != "scene") {
+        if (root->tag != kind_) {
             diagnostics_.error(
                 root->place(),
-                fmt::format("the root of an included file must be <scene>, not <{}>", root->tag));
+                fmt::format("the root of an included file must be <{}>, not <{}>", kind_, root->tag));
             return;
         }
-        check_attributes(*root, {}, {"dialect"}, diagnostics_);
+        if (kind_ == "suite")
+            check_attributes(*root, {}, {}, diagnostics_);
+        else
+            check_attributes(*root, {}, {"dialect"}, diagnostics_);
         if (const Attribute* dialect = root->attribute("dialect"))
             diagnostics_.warning(root->name_place(*dialect),
                                  "the dialect of an included file is ignored; that of the main file holds");
@@ -220,7 +224,7 @@ private:
         names.insert(declared_.begin(), declared_.end());
         for (const auto& [name, value] : definitions_) {
             if (names.count(name) > 0) continue;
-            diagnostics_.error({}, fmt::format("-D {}={}: no file of this scene uses ${}{}", name, value,
+            diagnostics_.error({}, fmt::format("-D {}={}: no file of this {} uses ${}{}", name, value, kind_,
                                                name, way_out(name, {names.begin(), names.end()})));
         }
     }
@@ -228,6 +232,7 @@ private:
     const Definitions& definitions_;
     Definitions values_;
     Diagnostics& diagnostics_;
+    std::string_view kind_ = "scene"; // of file
     std::vector<std::shared_ptr<const TextFile>> files_;
     std::vector<std::filesystem::path> open_; // the files being read, the main one first
     std::set<std::string> declared_;          // by <default>

@@ -47,6 +47,9 @@ public:
         const Vec3d in_order[4] = {center - u - v, center + u - v, center + u + v, center - u + v};
         for (std::size_t i = 0; i < 4; ++i) corners_[i] = Vec3f(to_world.point(in_order[i]));
 
+        for (std::uint32_t i = 0; i < 2; ++i) edges_[i] = triangle(i).edges();
+        halves_ = {edges_[0], TriangleEdges(corners_[0], corners_[3], corners_[2])};
+
         const Vec3d edge1 = Vec3d(corners_[1]) - Vec3d(corners_[0]);
         const Vec3d edge2 = Vec3d(corners_[3]) - Vec3d(corners_[0]);
         const Vec3d crossed = cross(edge1, edge2);
@@ -75,14 +78,14 @@ public:
 
     SurfacePoint surface_at(const Ray& ray, std::uint32_t primitive) const override
     {
-        const TriangleCorners t = triangle(primitive);
-        const Barycentric b = intersect_triangle(ray, t.p0, t.p1, t.p2);
+        const TriangleEdges& edges = edges_[primitive];
+        const Barycentric b = intersect_triangle(ray, edges);
         const auto first = static_cast<float>(b.u);
         const auto second = static_cast<float>(b.v);
         const float both = std::min(static_cast<float>(b.u + b.v), 1.f);
 
-        const Vec2f uv = primitive == 0 ? Vec2f(both, second) : Vec2f(first, both);
-        return {triangle_point(t, b), error_, normal_, shading_, uv, primitive};
+        const Vec2f uv(select(primitive == 0, both, first), select(primitive == 0, second, both));
+        return {triangle_point(edges, b), error_, normal_, shading_, uv, primitive};
     }
 
     ShapeSample sample_area(double /*u_select*/, const Vec2f& u) const override
@@ -90,9 +93,10 @@ public:
         // The triangle that (u, v) lies in has the diagonal from the first corner to the third, and a corner of its own.
         const double x = u.x;
         const double y = u.y;
-        const std::size_t own = 1 + 2 * static_cast<std::size_t>(y > x);
-        const Barycentric b{std::abs(x - y), std::min(x, y)};
-        return {triangle_point({corners_[0], corners_[own], corners_[2]}, b), error_, normal_, u, area_pdf_};
+        const double difference = std::abs(x - y);
+        const double smaller = (x + y - difference) * 0.5; // exactly, and without a jump
+        const TriangleEdges& half = halves_[static_cast<std::size_t>(y > x)];
+        return {triangle_point(half, {difference, smaller}), error_, normal_, u, area_pdf_};
     }
 
     float area() const override { return area_; }
@@ -121,7 +125,9 @@ private:
     }
 
     static constexpr std::array<AccelBuilder::Triangle, 2> triangles_ = {{{0, 1, 2}, {0, 2, 3}}};
-    std::array<Vec3f, 4> corners_; // at uv = (0, 0), (1, 0), (1, 1), (0, 1)
+    std::array<Vec3f, 4> corners_;        // at uv = (0, 0), (1, 0), (1, 1), (0, 1)
+    std::array<TriangleEdges, 2> edges_;  // of triangles_
+    std::array<TriangleEdges, 2> halves_; // below and above the diagonal, which comes last in both
     Vec3f normal_{0.f, 0.f, 1.f};
     Vec3f error_{0.f};
     Frame shading_;

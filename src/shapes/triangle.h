@@ -12,20 +12,18 @@ struct TriangleCorners {
     const Vec3f& p0;
     const Vec3f& p1;
     const Vec3f& p2;
+    TriangleEdges edges() const { return {p0, p1, p2}; }
 };
 
 // Not normalised: its length is twice the area. Zero for triangles without area.
-inline Vec3d triangle_cross(const TriangleCorners& t)
+inline Vec3d triangle_cross(const TriangleEdges& t)
 {
-    const Vec3d corner(t.p0);
-    return cross(Vec3d(t.p1) - corner, Vec3d(t.p2) - corner);
+    return cross(t.edge1, t.edge2);
 }
 
-// (1 - u - v) p0 + u p1 + v p2.
-inline Vec3f triangle_point(const TriangleCorners& t, const Barycentric& b)
+inline Vec3f triangle_point(const TriangleEdges& t, const Barycentric& b)
 {
-    const Vec3d corner(t.p0);
-    const Vec3d p = corner + (Vec3d(t.p1) - corner) * b.u + (Vec3d(t.p2) - corner) * b.v;
+    const Vec3d p = t.corner + t.edge1 * b.u + t.edge2 * b.v;
     return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
 }
 

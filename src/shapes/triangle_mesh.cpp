@@ -44,7 +44,7 @@ public:
         std::vector<double> areas;
         areas.reserve(mesh_.triangles.size());
         for (std::uint32_t i = 0; i < mesh_.triangles.size(); ++i)
-            areas.push_back(length(triangle_cross(corners(i))) * 0.5);
+            areas.push_back(length(triangle_cross(corners(i).edges())) * 0.5);
         choice_ = DiscreteDistribution(areas);
         area_ = static_cast<float>(choice_.sum());
         if (!(area_ > 0.f)) throw Error("every triangle of '" + file.string() + "' has an area of 0");
@@ -58,17 +58,18 @@ public:
     SurfacePoint surface_at(const Ray& ray, std::uint32_t primitive) const override
     {
         const TriangleCorners t = corners(primitive);
-        const Barycentric b = intersect_triangle(ray, t.p0, t.p1, t.p2);
-        const Vec3d normal = triangle_cross(t);
+        const TriangleEdges edges = t.edges();
+        const Barycentric b = intersect_triangle(ray, edges);
+        const Vec3d normal = triangle_cross(edges);
         const double normal_length = length(normal);
 
         const Vec3f geometric_normal = normal_length > 0.0
                                            ? front_normal(primitive, normal * (1.0 / normal_length))
                                            : normalize(-ray.direction);
         const Frame shading(shading_normal(primitive, b, geometric_normal));
-        return {triangle_point(t, b), triangle_error(t, normal_length),
-                geometric_normal,     shading,
-                uv(primitive, b),     primitive};
+        return {triangle_point(edges, b), triangle_error(t, normal_length),
+                geometric_normal,         shading,
+                uv(primitive, b),         primitive};
     }
 
     ShapeSample sample_area(double u_select, const Vec2f& u) const override
@@ -77,9 +78,10 @@ public:
         const Vec2f uv_in_triangle = square_to_triangle(u);
         const Barycentric b{uv_in_triangle.x, uv_in_triangle.y};
         const TriangleCorners t = corners(primitive);
-        const Vec3d normal = triangle_cross(t);
+        const TriangleEdges edges = t.edges();
+        const Vec3d normal = triangle_cross(edges);
         const double normal_length = length(normal);
-        return {triangle_point(t, b), triangle_error(t, normal_length),
+        return {triangle_point(edges, b), triangle_error(t, normal_length),
                 front_normal(primitive, normal * (1.0 / normal_length)), uv(primitive, b), 1.f / area_};
     }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 
-// The project's own scenes: path, path_nee and path_mis converge to the same picture, and the pictures of references/
-// are what they converge to.
+// The project's own scenes: path, path_nee and path_mis converge to the same picture. That the pictures of references/ are
+// what they converge to is tested by regression/suite.xml.
 
 #include "support/catch.h"
 #include "support/statistics.h"
@@ -81,43 +81,4 @@ TEST_CASE("the three integrators agree on every scene", "[statistical][scenes][s
                      "hw4/cornellbox_rectangle.xml", "hw4/cornellbox_mesh.xml",
                      "interesting/interesting_1.xml", "interesting/interesting_2.xml"},
                     120);
-}
-
-TEST_CASE("the references are what the scenes converge to", "[statistical][scenes][slow]")
-{
-    struct Reference {
-        const char* picture;
-        const char* scene;
-        std::uint64_t samples_per_pixel; // of the picture
-    };
-    const std::vector<Reference> references = {
-        {"cbox/cbox", "cbox/cbox_mis.xml", 1024},
-        {"cbox/cbox_glossy", "cbox/cbox_glossy_mis.xml", 1024},
-        {"cbox/cbox_caustics", "cbox/cbox_caustics_mis.xml", 2048},
-        {"veach_mi/veach", "veach_mi/veach_mis.xml", 1024},
-        {"table/table", "table/table_mis.xml", 1024},
-        {"hw4/rectangle", "hw4/cornellbox_mesh.xml", 1024},
-    };
-    for (const Reference& reference : references) {
-        const Image picture =
-            read_image(root / "references" / (std::string(reference.picture) + ".exr"), false);
-        const double expected = mean_luminance(picture);
-        LoadOptions options;
-        options.integrator = "path_mis";
-        options.resolution = Vec2i(picture.full_width(), picture.full_height());
-        const LoadedScene scene = load_scene(root / "scenes" / reference.scene, options);
-        CHECK(test::check_statistic(
-            reference.picture,
-            [&](std::uint64_t samples, std::uint64_t seed) {
-                // The reference is one picture of so many samples: its own noise is that of a replicate, by the ratio.
-                const MeanAndVariance means = picture_means(scene.job, samples, seed);
-                const double share =
-                    static_cast<double>(samples) / static_cast<double>(reference.samples_per_pixel);
-                const double variance = means.variance() * (1.0 / static_cast<double>(replicates) + share);
-                const double t = (means.mean() - expected) / std::sqrt(variance);
-                return test::Outcome{test::student_t_two_sided(t, static_cast<double>(replicates - 1)),
-                                     fmt::format("mean {} against {}, t = {}", means.mean(), expected, t)};
-            },
-            1, test::sidak_level(test::significance, references.size())));
-    }
 }

@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
+#include <functional>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -20,9 +21,14 @@ struct RunResult {
     std::string err;
 };
 
+// What to do while the program runs.
+using Meanwhile = std::function<void(pid_t process)>;
+
 // Runs words[0] in `folder` with standard input empty. out: where standard output goes, instead of into the result.
+// variables: "NAME=VALUE", added to the environment.
 inline RunResult run_program(const std::vector<std::string>& words, const std::filesystem::path& folder,
-                             const std::string& out = "")
+                             const std::string& out = "", const Meanwhile& meanwhile = {},
+                             const std::vector<std::string>& variables = {})
 {
     const TempFolder capture;
     const std::string out_file = out.empty() ? (capture / "out").string() : out;
@@ -39,10 +45,16 @@ inline RunResult run_program(const std::vector<std::string>& words, const std::f
     std::vector<char*> argv;
     for (std::string& word : copies) argv.push_back(word.data());
     argv.push_back(nullptr);
+    std::vector<std::string> added = variables;
+    std::vector<char*> environment;
+    for (char** variable = environ; *variable; ++variable) environment.push_back(*variable);
+    for (std::string& variable : added) environment.push_back(variable.data());
+    environment.push_back(nullptr);
     pid_t process = 0;
-    const int problem = posix_spawn(&process, argv[0], &actions, nullptr, argv.data(), environ);
+    const int problem = posix_spawn(&process, argv[0], &actions, nullptr, argv.data(), environment.data());
     posix_spawn_file_actions_destroy(&actions);
     if (problem != 0) throw std::runtime_error("cannot run " + words.front() + ": " + std::strerror(problem));
+    if (meanwhile) meanwhile(process);
 
     int status = 0;
     while (waitpid(process, &status, 0) < 0)
@@ -55,10 +67,11 @@ inline RunResult run_program(const std::vector<std::string>& words, const std::f
 }
 
 inline RunResult run_renderer(std::vector<std::string> words, const std::filesystem::path& folder,
-                              const std::string& out = "")
+                              const std::string& out = "", const Meanwhile& meanwhile = {},
+                              const std::vector<std::string>& variables = {})
 {
     words.insert(words.begin(), PLUMB_RENDERER);
-    return run_program(words, folder, out);
+    return run_program(words, folder, out, meanwhile, variables);
 }
 
 } // namespace plumb

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+
+// junit.xml, as continuous integration reads it: a test case for each picture. Undecided is a failure, for it is no
+// agreement.
+
+#include "cli/batch/result.h"
+#include "cli/text.h"
+
+#include <fmt/format.h>
+
+namespace plumb {
+
+namespace {
+
+// As the value of an attribute or as text. XML 1.0 has no control characters but these three, nor U+FFFE and U+FFFF.
+std::string xml_text(std::string_view text)
+{
+    std::string result;
+    for (const char c : valid_utf8(text)) {
+        switch (c) {
+        case '&': result += "&amp;"; break;
+        case '<': result += "&lt;"; break;
+        case '>': result += "&gt;"; break;
+        case '"': result += "&quot;"; break;
+        case '\n': result += "&#10;"; break;
+        case '\t': result += "&#9;"; break;
+        case '\r': result += "&#13;"; break;
+        default:
+            if (static_cast<unsigned char>(c) < 0x20)
+                result += "?";
+            else
+                result += c;
+        }
+    }
+    return result;
+}
+
+std::string details(const BatchResult& result)
+{
+    std::string text = result.problem.empty() ? reason_text(result) : result.problem;
+    text += "\n" + result.command;
+    if (result.comparison) text += fmt::format("\nrmse {:.6g}", result.comparison->metrics.rmse);
+    if (result.noise) text += fmt::format("\nnoise {:.6g}", *result.noise);
+    return text;
+}
+
+std::string outcome(const BatchResult& result)
+{
+    const std::string message = xml_text(reason_text(result));
+    switch (result.verdict) {
+    case BatchVerdict::made:
+    case BatchVerdict::passes:
+    case BatchVerdict::rendered: return {};
+    case BatchVerdict::not_run: return fmt::format("      <skipped message=\"{}\"/>\n", message);
+    case BatchVerdict::error:
+        return fmt::format("      <error type=\"error\" message=\"{}\">{}</error>\n", message,
+                           xml_text(details(result)));
+    case BatchVerdict::differs:
+    case BatchVerdict::undecided:
+        return fmt::format("      <failure type=\"{}\" message=\"{}\">{}</failure>\n",
+                           verdict_word(result.verdict), message, xml_text(details(result)));
+    }
+    return {};
+}
+
+} // namespace
+
+std::string batch_junit(const BatchRun& run)
+{
+    const std::string suite = xml_text(std::filesystem::path(run.suite).stem().string());
+    const std::string counts =
+        fmt::format(R"(tests="{}" failures="{}" errors="{}" skipped="{}" time="{:.3f}")", run.results.size(),
+                    run.count(BatchVerdict::differs) + run.count(BatchVerdict::undecided),
+                    run.count(BatchVerdict::error), run.count(BatchVerdict::not_run), run.seconds);
+    std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
+    text += fmt::format("<testsuites {}>\n  <testsuite name=\"{}\" {}>\n", counts, suite, counts);
+    for (const BatchResult& result : run.results) {
+        const std::string body = outcome(result);
+        text += fmt::format("    <testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\"{}", suite,
+                            xml_text(result.title), result.seconds, body.empty() ? "/>\n" : ">\n");
+        if (!body.empty()) text += body + "    </testcase>\n";
+    }
+    return text + "  </testsuite>\n</testsuites>\n";
+}
+
+} // namespace plumb

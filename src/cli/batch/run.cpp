@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+#include "cli/batch/run.h"
+
+#include "cli/commands.h"
+#include "cli/console.h"
+#include "cli/outputs.h"
+
+#include <charconv>
+#include <chrono>
+#include <fmt/format.h>
+#include <functional>
+#include <new>
+
+namespace plumb {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+// The options that words of the command line mean, with what is said of this run.
+Options options_of(const std::vector<std::string>& words, const Options& run)
+{
+    Options options = parse_options(words);
+    options.quiet =
+        run.quiet || !log_is_terminal(); // one bar after the other, no lines between those of the table
+    options.render.threads = run.render.threads;
+    options.keep_interrupted = false; // half a picture is neither a result nor a reference
+    return options;
+}
+
+// Without a word: warnings are part of the report.
+LoadedScene load_scene_of(const SuiteEntry& entry, Options options)
+{
+    std::error_code ignored;
+    if (!fs::exists(entry.scene, ignored)) {
+        const Diagnostic missing{Severity::error, entry.scene_at,
+                                 fmt::format("there is no scene file '{}'", entry.scene.string())};
+        throw SceneError({missing});
+    }
+    options.quiet = true;
+    return load_and_log(options);
+}
+
+// Does the work and fills in how long it took and what went wrong.
+void attempt(BatchResult& result, const std::function<void()>& work)
+{
+    const auto start = Clock::now();
+    const auto fail = [&](std::string problem) {
+        result.verdict = BatchVerdict::error;
+        result.problem = std::move(problem);
+    };
+    try {
+        work();
+    } catch (const SceneError& error) {
+        fail(error.what());
+    } catch (const FileError& error) {
+        fail(Diagnostic{Severity::error, error.location(), error.what()}.text());
+    } catch (const std::bad_alloc&) {
+        fail("error: not enough memory");
+    } catch (const std::exception& error) {
+        fail(std::string("error: ") + error.what());
+    }
+    result.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// Throws Error if a signal came.
+void check_whole(const Rendered& rendered, BatchResult& result)
+{
+    result.signal = rendered.signal;
+    if (rendered.signal != 0) throw Error("interrupted");
+}
+
+// What the picture's header says.
+void read_header(BatchResult& result, const Image& image)
+{
+    for (const auto& [name, value] : image.metadata) {
+        const auto* text = std::get_if<std::string>(&value);
+        const auto* number = std::get_if<float>(&value);
+        if (name == "plumb:rmse" && number) result.noise = static_cast<double>(*number);
+        if (name == "plumb:biases" && text) result.biases = *text;
+        if (name == "plumb:leftOut" && text)
+            std::from_chars(text->data(), text->data() + text->size(), result.left_out);
+    }
+}
+
+BatchVerdict verdict_of(CompareOutcome outcome)
+{
+    switch (outcome) {
+    case CompareOutcome::passes: return BatchVerdict::passes;
+    case CompareOutcome::differs: return BatchVerdict::differs;
+    case CompareOutcome::undecided: return BatchVerdict::undecided;
+    }
+    return BatchVerdict::undecided;
+}
+
+void compare_with_reference(const BatchJob& job, const Options& run, const Image& image, BatchResult& result)
+{
+    const SuiteEntry& entry = job.entry;
+    std::error_code ignored;
+    if (!fs::exists(entry.reference, ignored))
+        throw SceneError(
+            {Diagnostic{Severity::error, entry.reference_at,
+                        fmt::format("there is no reference '{}'; 'renderer batch {} --update' makes it",
+                                    entry.reference.string(), run.subject)}});
+    const Image reference = read_image(entry.reference, true);
+    std::vector<std::string> words = {"compare", result.picture, entry.reference.string()};
+    words.insert(words.end(), job.compare_words.begin(), job.compare_words.end());
+    result.how = parse_options(std::move(words)).compare.how;
+    try {
+        result.comparison = compare(image, reference, result.how);
+    } catch (const Error& error) {
+        throw Error(fmt::format("cannot compare A, '{}', with B, '{}': {}", result.picture,
+                                entry.reference.string(), error.what()));
+    }
+    result.verdict = verdict_of(result.comparison->outcome);
+    const std::string difference = fs::path(result.picture).replace_extension().string() + "_diff.png";
+    write_image(difference, difference_image(image, reference));
+    result.difference = difference;
+}
+
+BatchResult result_of(const BatchJob& job, const std::vector<std::string>& words)
+{
+    BatchResult result;
+    result.title = job.entry.title();
+    result.scene = job.entry.scene.string();
+    result.reference = job.entry.reference.string();
+    result.command = command_text(words);
+    return result;
+}
+
+std::vector<std::string> warnings_of(const LoadedScene& scene)
+{
+    std::vector<std::string> warnings;
+    for (const Diagnostic& warning : scene.warnings) warnings.push_back(warning.text());
+    return warnings;
+}
+
+// The title with the number of samples that the scene asks for, which must be nobody else's.
+std::string counted_title(const SuiteEntry& entry, const LoadedScene& scene, std::set<std::string>& taken)
+{
+    if (entry.settings.contains("spp")) return entry.title();
+    std::string title = fmt::format("{}_{}", entry.name, scene.job.sampler->samples_per_pixel());
+    if (!taken.insert(title).second)
+        throw SceneError({Diagnostic{
+            Severity::error, entry.at,
+            fmt::format("another entry writes '{}.exr', too; give one of them another name", title)}});
+    return title;
+}
+
+} // namespace
+
+void make_folder(const fs::path& folder)
+{
+    std::error_code problem;
+    if (!folder.empty()) fs::create_directories(folder, problem);
+    if (problem)
+        throw Error(fmt::format("cannot make the folder '{}': {}", folder.string(), problem.message()));
+}
+
+BatchResult run_entry(const BatchJob& job, BatchContext& context)
+{
+    BatchResult result = result_of(job, job.render_words);
+    attempt(result, [&] {
+        Options options = options_of(job.render_words, context.options);
+        {
+            const LoadedScene scene = load_scene_of(job.entry, options);
+            result.warnings = warnings_of(scene);
+            result.title = counted_title(job.entry, scene, context.titles);
+            const std::string stem = (context.folder / result.title).string();
+            options.outputs = {stem + ".exr", stem + ".png"};
+            const std::string key = picture_key(options, scene);
+            result.up_to_date = !context.options.batch.force &&
+                                context.state.is_up_to_date(result.title, key, options.outputs);
+            if (!result.up_to_date) {
+                make_folder(fs::path(stem).parent_path());
+                keep_inputs(context.kept, options.outputs, {}, "it is a scene or a reference of the suite");
+                check_outputs(options.outputs, {});
+                check_whole(render_and_write(options, scene), result);
+                context.state.note(result.title, key, options.outputs);
+            }
+        }
+        const Image image = read_image(options.outputs[0], true);
+        result.picture = options.outputs[0];
+        result.screen_picture = options.outputs[1];
+        read_header(result, image);
+        result.verdict = BatchVerdict::rendered;
+        if (!job.entry.reference.empty()) compare_with_reference(job, context.options, image, result);
+    });
+    return result;
+}
+
+BatchResult make_reference(const BatchJob& job, const Options& run, const std::vector<fs::path>& kept)
+{
+    BatchResult result = result_of(job, job.reference_words);
+    result.title = result.reference;
+    attempt(result, [&] {
+        Options options = options_of(job.reference_words, run);
+        options.outputs = {result.reference};
+        if (job.entry.reference.extension() == ".exr")
+            options.outputs.push_back(fs::path(job.entry.reference).replace_extension(".png").string());
+        const LoadedScene scene = load_scene_of(job.entry, options);
+        result.warnings = warnings_of(scene);
+        make_folder(job.entry.reference.parent_path());
+        keep_inputs(kept, options.outputs, {}, "it is a scene of the suite");
+        check_outputs(options.outputs, {});
+        const Rendered rendered = render_and_write(options, scene);
+        check_whole(rendered, result);
+        const Evidence& evidence = rendered.report.evidence;
+        if (evidence.noise) result.noise = evidence.noise->rmse;
+        result.left_out = evidence.left_out.count;
+        result.verdict = BatchVerdict::made;
+    });
+    return result;
+}
+
+} // namespace plumb

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Doing what one entry of a suite says.
+
+#include "cli/batch/result.h"
+#include "cli/batch/state.h"
+
+#include <set>
+
+namespace plumb {
+
+struct BatchContext {
+    const Options& options; // of `renderer batch`
+    std::filesystem::path folder;
+    BatchState state;
+    std::set<std::string> titles;            // that are taken
+    std::vector<std::filesystem::path> kept; // files that no picture may replace
+};
+
+// Throws Error.
+void make_folder(const std::filesystem::path& folder);
+
+// Renders the entry's picture unless it is up to date, and compares it. Never throws: what goes wrong is in the result.
+BatchResult run_entry(const BatchJob& job, BatchContext& context);
+
+// Makes a reference; the result says how that went.
+BatchResult make_reference(const BatchJob& job, const Options& options,
+                           const std::vector<std::filesystem::path>& kept);
+
+} // namespace plumb

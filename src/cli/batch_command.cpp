@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+#include "cli/batch/run.h"
+#include "cli/commands.h"
+#include "cli/console.h"
+#include "cli/exit_codes.h"
+#include "cli/text_file.h"
+
+#include <algorithm>
+#include <chrono>
+#include <fmt/format.h>
+
+namespace plumb {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_chosen(const std::string& title, const std::string& filter)
+{
+    if (filter.find_first_of("*?") != filter.npos) return matches_pattern(title, filter);
+    return title.find(filter) != title.npos;
+}
+
+std::vector<BatchJob> chosen(const std::vector<BatchJob>& jobs, const Options& options)
+{
+    std::vector<BatchJob> result;
+    for (const BatchJob& job : jobs)
+        if (is_chosen(job.entry.title(), options.batch.filter)) result.push_back(job);
+    if (result.empty())
+        throw Error(fmt::format("no picture of '{}' has a name like '{}'; the first is {}", options.subject,
+                                options.batch.filter, jobs.front().entry.title()));
+    return result;
+}
+
+// References, too, unless they are to be made.
+std::vector<fs::path> files_to_keep(const std::vector<BatchJob>& jobs, const Options& options)
+{
+    std::vector<fs::path> files = {options.subject};
+    for (const BatchJob& job : jobs) {
+        files.push_back(job.entry.scene);
+        if (!options.batch.update && !job.entry.reference.empty()) files.push_back(job.entry.reference);
+    }
+    return files;
+}
+
+// Runs one job after the other, with a line on the console for each, until a signal comes, or one fails if that is asked for.
+template <class Run>
+BatchRun run_all(const std::vector<BatchJob>& jobs, const Options& options, const Run& run)
+{
+    const auto start = std::chrono::steady_clock::now();
+    std::size_t width = 0;
+    for (const BatchJob& job : jobs)
+        width =
+            std::max(width, (options.batch.update ? job.entry.reference.string() : job.entry.title()).size());
+
+    BatchRun all;
+    all.suite = options.subject;
+    bool stopped = false;
+    for (const BatchJob& job : jobs) {
+        if (stopped) {
+            all.results.emplace_back();
+            all.results.back().title = job.entry.title();
+            all.results.back().scene = job.entry.scene.string();
+            continue;
+        }
+        const BatchResult& result = all.results.emplace_back(run(job));
+        if (!options.quiet || result.verdict == BatchVerdict::error) print_output(result_line(result, width));
+        finish_output(); // so far
+        all.signal = result.signal;
+        stopped = result.signal != 0 || (options.batch.fail_fast && result.verdict > BatchVerdict::passes);
+    }
+    all.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return all;
+}
+
+// One job for each reference of the chosen ones: the first in the suite that names it.
+std::vector<BatchJob> reference_makers(const std::vector<BatchJob>& jobs,
+                                       const std::vector<BatchJob>& chosen_jobs)
+{
+    std::vector<BatchJob> makers;
+    Diagnostics diagnostics;
+    const auto with = [](const fs::path& reference) {
+        return [&reference](const BatchJob& job) { return job.entry.reference == reference; };
+    };
+    for (const BatchJob& job : chosen_jobs) {
+        const fs::path& reference = job.entry.reference;
+        if (reference.empty() || std::any_of(makers.begin(), makers.end(), with(reference))) continue;
+        const BatchJob& maker = *std::find_if(jobs.begin(), jobs.end(), with(reference));
+        makers.push_back(maker);
+        if (maker.entry.reference_settings.contains("spp")) continue;
+        for (const BatchJob& other : jobs)
+            if (other.entry.reference == reference && other.reference_words != maker.reference_words)
+                diagnostics.error(
+                    maker.entry.reference_at,
+                    fmt::format("several entries share '{}'; say how the first of them, '{}', makes it: "
+                                R"(reference-spp="...")",
+                                reference.string(), maker.entry.title()));
+    }
+    if (diagnostics.has_errors()) throw SceneError(diagnostics.all());
+    if (makers.empty()) throw Error("no entry has a reference to make");
+    return makers;
+}
+
+int update(const Options& options, const std::vector<BatchJob>& jobs,
+           const std::vector<BatchJob>& chosen_jobs)
+{
+    const std::vector<fs::path> kept = files_to_keep(jobs, options);
+    const BatchRun run = run_all(reference_makers(jobs, chosen_jobs), options,
+                                 [&](const BatchJob& job) { return make_reference(job, options, kept); });
+    if (!options.quiet) print_output(summary_text(run) + "\n");
+    return run.exit_code();
+}
+
+void write_reports(const BatchRun& run)
+{
+    const fs::path folder = run.folder;
+    write_text_file(folder / "report.json", batch_json(run));
+    write_text_file(folder / "junit.xml", batch_junit(run));
+    write_text_file(folder / "summary.md", batch_markdown(run));
+    write_text_file(folder / "report.html", batch_html(run));
+}
+
+} // namespace
+
+int batch_command(const Options& options)
+{
+    const std::vector<BatchJob> jobs = plan_batch(options.subject, options.load.definitions);
+    const std::vector<BatchJob> chosen_jobs = chosen(jobs, options);
+    if (options.batch.update) return update(options, jobs, chosen_jobs);
+
+    const fs::path folder = options.batch.folder.empty()
+                                ? fs::path("batch") / fs::path(options.subject).stem()
+                                : fs::path(options.batch.folder);
+    make_folder(folder);
+    for (const char* report : {"report.json", "junit.xml", "summary.md", "report.html", "state.txt"})
+        check_text_path(folder / report);
+    BatchContext context{options, folder, BatchState(folder), {}, files_to_keep(jobs, options)};
+    for (const BatchJob& job : jobs)
+        if (job.entry.settings.contains("spp")) context.titles.insert(job.entry.title());
+
+    BatchRun run =
+        run_all(chosen_jobs, options, [&](const BatchJob& job) { return run_entry(job, context); });
+    run.folder = folder.string();
+    write_reports(run);
+    if (!options.quiet)
+        print_output(fmt::format("{}; reports: {}\n", summary_text(run), (folder / "report.html").string()));
+    return run.exit_code();
+}
+
+} // namespace plumb

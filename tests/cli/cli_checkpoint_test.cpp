@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: MIT
+
+// Checkpoints, stop rules, parts and merging, with the real program.
+
+#include "cli/picture_header.h"
+#include "cli/small_scene.h"
+#include "plumb/image.h"
+#include "support/catch.h"
+
+#include <chrono>
+#include <csignal>
+#include <thread>
+
+using namespace plumb;
+
+namespace {
+
+bool is_there(const std::filesystem::path& path)
+{
+    return std::filesystem::exists(path);
+}
+
+} // namespace
+
+TEST_CASE("a rendering that is gone on from gives the same file", "[cli][checkpoint]")
+{
+    const SceneFolder folder;
+    REQUIRE(folder.run({"scene.xml", "-o", "whole.exr", "--spp", "50"}).exit_code == 0);
+    REQUIRE(folder.run({"scene.xml", "-o", "a.exr", "--spp", "20", "--checkpoint", "c.exr"}).exit_code == 0);
+    const RunResult more =
+        folder.run({"scene.xml", "-o", "a.exr", "--spp", "50", "--checkpoint", "c.exr", "--resume"});
+    CHECK(more.exit_code == 0);
+    CHECK_THAT(more.err, ContainsSubstring("going on from 'c.exr', which has 34.5 k samples\n"));
+    CHECK(read_bytes(folder / "a.exr") == read_bytes(folder / "whole.exr"));
+    CHECK(is_there(folder / "c.previous.exr"));
+
+    SECTION("from nothing it starts, and says so")
+    {
+        const RunResult fresh =
+            folder.run({"scene.xml", "-o", "b.exr", "--spp", "50", "--checkpoint", "d.exr", "--resume"});
+        CHECK(fresh.exit_code == 0);
+        CHECK_THAT(fresh.err, ContainsSubstring("there is no 'd.exr' yet: starting with the first sample\n"));
+        CHECK(read_bytes(folder / "b.exr") == read_bytes(folder / "whole.exr"));
+    }
+    SECTION("a checkpoint is not written over by a new rendering")
+    {
+        const RunResult other =
+            folder.run({"scene.xml", "-o", "b.exr", "--spp", "60", "--checkpoint", "c.exr"});
+        CHECK(other.exit_code == 1);
+        CHECK(other.err == "error: 'c.exr' is there already: go on from it with --resume, or remove it\n");
+    }
+    SECTION("a damaged generation is said to be so, and the previous one taken")
+    {
+        const std::string good = read_bytes(folder / "c.exr");
+        folder.write("c.exr", good.substr(0, good.size() / 2));
+        const RunResult second =
+            folder.run({"scene.xml", "-o", "a.exr", "--spp", "50", "--checkpoint", "c.exr", "--resume"});
+        CHECK(second.exit_code == 0);
+        CHECK_THAT(second.err, ContainsSubstring("warning: cannot go on from 'c.exr': "));
+        CHECK_THAT(second.err, ContainsSubstring("; going on from 'c.previous.exr'\n"));
+        CHECK(read_bytes(folder / "a.exr") == read_bytes(folder / "whole.exr"));
+
+        folder.write("c.exr", "nothing");
+        folder.write("c.previous.exr", "nothing");
+        const RunResult third =
+            folder.run({"scene.xml", "-o", "a.exr", "--spp", "50", "--checkpoint", "c.exr", "--resume"});
+        CHECK(third.exit_code == 1);
+        CHECK_THAT(third.err, ContainsSubstring("error: cannot go on from 'c.exr': "));
+        CHECK_THAT(third.err, ContainsSubstring("; nor its previous generation: "));
+        CHECK(read_bytes(folder / "c.exr") == "nothing");
+    }
+}
+
+TEST_CASE("a checkpoint of another rendering is refused with the reason", "[cli][checkpoint]")
+{
+    const SceneFolder folder;
+    REQUIRE(folder.run({"scene.xml", "-o", "a.exr", "--checkpoint", "c.exr"}).exit_code == 0);
+    const std::string before = read_bytes(folder / "c.exr");
+    const auto refusal = [&](Names words) {
+        words.insert(words.end(), {"--checkpoint", "c.exr", "--resume", "-o", "b.exr", "--quiet"});
+        const RunResult result = folder.run(words);
+        CHECK(result.exit_code == 1);
+        CHECK(result.out.empty());
+        CHECK(read_bytes(folder / "c.exr") == before);
+        return result.err;
+    };
+    CHECK(refusal({"scene.xml", "--seed", "3"}) ==
+          "error: cannot go on from 'c.exr': the seed was 0 and is 3\n");
+    CHECK(refusal({"scene.xml", "--isa", "sse4.2", "--integrator", "path"}) ==
+          "error: cannot go on from 'c.exr': the integrator was path_mis and is path and the instruction set "
+          "was "
+          "avx2 and is sse4.2\n");
+    CHECK(refusal({"scene.xml", "--size", "20x20"}) ==
+          "error: cannot go on from 'c.exr': the options are not the same\n");
+    CHECK(refusal({"scene.xml", "--crop", "0,0,8,8"}) ==
+          "error: cannot go on from 'c.exr': it has the pixels 0,0,48,36, not 0,0,8,8\n");
+    CHECK(refusal({"scene.xml", "--spp", "2"}) ==
+          "error: cannot go on from 'c.exr': it has samples that are not asked for: 0,0,48,36:2-4\n");
+    folder.write("scene.xml", small_scene() + "<!-- edited -->");
+    CHECK(refusal({"scene.xml"}) == "error: cannot go on from 'c.exr': 'scene.xml' has changed\n");
+    folder.write("scene.xml", small_scene());
+    std::filesystem::copy_file(folder / "a.exr", folder / "c.exr",
+                               std::filesystem::copy_options::overwrite_existing);
+    CHECK_THAT(folder.run({"scene.xml", "-o", "b.exr", "--checkpoint", "c.exr", "--resume"}).err,
+               ContainsSubstring("cannot go on from 'c.exr': it is no checkpoint and no part of a picture"));
+}
+
+TEST_CASE("a signal ends a rendering with picture and checkpoint", "[cli][checkpoint]")
+{
+    const int signal = GENERATE(SIGINT, SIGTERM);
+    const SceneFolder folder;
+    REQUIRE(folder.run({"scene.xml", "-o", "whole.exr", "--spp", "40000", "--crop", "20,16,4,4"}).exit_code ==
+            0);
+    const Names words = {"scene.xml", "-o",        "a.exr",        "--spp", "40000",
+                         "--crop",    "20,16,4,4", "--checkpoint", "c.exr"};
+    // The first checkpoint shows that rendering has begun.
+    Names often = words;
+    often.insert(often.end(), {"--checkpoint-every", "0.01s"});
+    const RunResult stopped = run_renderer(often, folder.path(), "", [&](pid_t process) {
+        for (int i = 0; i < 3000 && !is_there(folder / "c.exr"); ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        kill(process, signal);
+    });
+    REQUIRE(stopped.exit_code == 128 + signal);
+    CHECK_THAT(
+        stopped.err,
+        ContainsSubstring("samples per pixel; to go on:\n    renderer scene.xml -o a.exr --spp "
+                          "40000 --crop 20,16,4,4 --checkpoint c.exr --checkpoint-every 0.01s --resume\n"));
+    CHECK(text(header(folder / "a.exr"), "plumb:stop") == "it was interrupted");
+    Names again = words;
+    again.emplace_back("--resume");
+    REQUIRE(folder.run(again).exit_code == 0);
+    CHECK(read_bytes(folder / "a.exr") == read_bytes(folder / "whole.exr"));
+}
+
+TEST_CASE("a rendering ends when its noise is low enough, wherever it was interrupted", "[cli][checkpoint]")
+{
+    const SceneFolder folder;
+    const Names words = {"scene.xml", "--size", "16x12", "--target-error", "0.2"};
+    const auto with = [&](const Names& more) {
+        Names all = words;
+        all.insert(all.end(), more.begin(), more.end());
+        return all;
+    };
+    REQUIRE(folder.run(with({"-o", "whole.exr"})).exit_code == 0);
+    const auto found = header(folder / "whole.exr");
+    const int samples = integer(found, "plumb:samplesPerPixel");
+    CHECK(samples >= 16);
+    CHECK(samples % 16 == 0);
+    CHECK(integer(found, "plumb:biased") == 1);
+    CHECK(text(found, "plumb:biases") == "it stopped when its own noise was below 0.2");
+
+    REQUIRE(
+        folder.run({"scene.xml", "--size", "16x12", "--spp", "21", "-o", "a.exr", "--checkpoint", "c.exr"})
+            .exit_code == 0);
+    REQUIRE(folder.run(with({"-o", "a.exr", "--checkpoint", "c.exr", "--resume"})).exit_code == 0);
+    CHECK(read_bytes(folder / "a.exr") == read_bytes(folder / "whole.exr"));
+    REQUIRE(folder.run({"rerun", "whole.exr", "-o", "again.exr"}).exit_code == 0);
+    CHECK(read_bytes(folder / "again.exr") == read_bytes(folder / "whole.exr"));
+}
+
+TEST_CASE("a time limit is kept, named in the ledger, and can be rendered again", "[cli][checkpoint]")
+{
+    const SceneFolder folder;
+    const RunResult limited = folder.run({"scene.xml", "-o", "a.exr", "--time", "0.3"});
+    REQUIRE(limited.exit_code == 0);
+    const auto found = header(folder / "a.exr");
+    CHECK(text(found, "plumb:biases") == "it stopped at the time limit of 0.300 s");
+    CHECK(integer(found, "plumb:samplesPerPixel") >= 1);
+    REQUIRE(folder.run({"rerun", "a.exr", "-o", "b.exr"}).exit_code == 0);
+    CHECK(read_bytes(folder / "a.exr") == read_bytes(folder / "b.exr"));
+    // The number of samples is a limit, too.
+    REQUIRE(folder.run({"scene.xml", "-o", "c.exr", "--time", "1h", "--spp", "3"}).exit_code == 0);
+    CHECK(integer(header(folder / "c.exr"), "plumb:samplesPerPixel") == 3);
+    CHECK(integer(header(folder / "c.exr"), "plumb:biased") == 0);
+}
+
+TEST_CASE("parts make the picture, whatever the order and the grouping", "[cli][merge]")
+{
+    const SceneFolder folder;
+    const std::string by = GENERATE("tiles", "samples");
+    REQUIRE(folder.run({"scene.xml", "-o", "whole.exr", "--spp", "9"}).exit_code == 0);
+    for (const std::string part : {"1", "2", "3", "4"})
+        REQUIRE(folder
+                    .run({"scene.xml", "--spp", "9", "--part", part + "/4", "--part-by", by, "-o",
+                          "p" + part + ".exr"})
+                    .exit_code == 0);
+    REQUIRE(folder.run({"merge", "p3.exr", "p1.exr", "p4.exr", "p2.exr", "-o", "a.exr"}).exit_code == 0);
+    CHECK(read_bytes(folder / "a.exr") == read_bytes(folder / "whole.exr"));
+    REQUIRE(folder.run({"merge", "p3.exr", "p1.exr", "--checkpoint", "p13.exr"}).exit_code == 0);
+    REQUIRE(folder.run({"merge", "p2.exr", "p13.exr", "--checkpoint", "p123.exr"}).exit_code == 0);
+    REQUIRE(folder.run({"merge", "p4.exr", "p123.exr", "-o", "b.exr", "--checkpoint", "all.exr"}).exit_code ==
+            0);
+    CHECK(read_bytes(folder / "b.exr") == read_bytes(folder / "whole.exr"));
+
+    // The whole can be gone on from.
+    REQUIRE(folder.run({"scene.xml", "-o", "whole.exr", "--spp", "12"}).exit_code == 0);
+    REQUIRE(folder.run({"scene.xml", "-o", "c.exr", "--spp", "12", "--checkpoint", "all.exr", "--resume"})
+                .exit_code == 0);
+    CHECK(read_bytes(folder / "c.exr") == read_bytes(folder / "whole.exr"));
+
+    SECTION("overlaps and holes are refused by name")
+    {
+        const auto refusal = [&](const Names& words) {
+            const RunResult result = folder.run(words);
+            CHECK(result.exit_code == 1);
+            CHECK_FALSE(is_there(folder / "x.exr"));
+            return result.err;
+        };
+        CHECK_THAT(refusal({"merge", "p1.exr", "p13.exr", "p2.exr", "-o", "x.exr"}),
+                   ContainsSubstring("error: 'p1.exr' and 'p13.exr' both have "));
+        CHECK_THAT(refusal({"merge", "p1.exr", "p13.exr", "-o", "x.exr"}),
+                   ContainsSubstring(" samples, the first "
+                                     "of them at 0,0,"));
+        CHECK_THAT(refusal({"merge", "p13.exr", "p4.exr", "-o", "x.exr"}),
+                   ContainsSubstring("samples are missing (part 2/4 by " + by + "), the first of them at "));
+        REQUIRE(folder.run({"scene.xml", "--spp", "9", "--part", "4/4", "--seed", "2", "-o", "other.exr"})
+                    .exit_code == 0);
+        CHECK(refusal({"merge", "p123.exr", "other.exr", "-o", "x.exr"}) ==
+              "error: 'p123.exr' and 'other.exr' are not of one picture: the seed was 0 and is 2\n");
+        REQUIRE(folder.run({"scene.xml", "--spp", "10", "--part", "4/4", "-o", "longer.exr"}).exit_code == 0);
+        CHECK(refusal({"merge", "p123.exr", "longer.exr", "-o", "x.exr"}) ==
+              "error: 'p123.exr' and 'longer.exr' are not of one picture: one is of 9 samples per pixel, the "
+              "other "
+              "of 10\n");
+        CHECK(refusal({"merge", "p1.exr", "p2.exr", "--checkpoint", "p1.exr"}) ==
+              "error: cannot write 'p1.exr': it is a part to be merged\n");
+        CHECK_THAT(refusal({"merge", "p1.exr", "scene.xml", "-o", "x.exr"}),
+                   ContainsSubstring("error: cannot go on from 'scene.xml': "));
+    }
+    SECTION("a picture with holes says so")
+    {
+        const RunResult result = folder.run({"merge", "p13.exr", "p4.exr", "-o", "x.exr", "--allow-missing"});
+        CHECK(result.exit_code == 0);
+        CHECK_THAT(result.err, ContainsSubstring("warning: "));
+        const auto found = header(folder / "x.exr");
+        CHECK(found.count("plumb:samplesTaken") == 1);
+        CHECK(integer(found, "plumb:biased") == (by == "tiles" ? 1 : 0));
+        if (by == "tiles") CHECK(text(found, "plumb:biases") == "some pixels have no samples and are black");
+    }
+}
+
+TEST_CASE("what does not go with checkpoints and parts", "[cli][merge]")
+{
+    const SceneFolder folder;
+    const auto usage = [&](const Names& words) {
+        const RunResult result = folder.run(words);
+        CHECK(result.exit_code == 2);
+        return result.err;
+    };
+    CHECK(usage({"scene.xml", "--part", "1/2", "-o", "p.exr", "--checkpoint", "c.exr"}) ==
+          "error: --part and --checkpoint exclude each other: the output of a part is its checkpoint\n");
+    CHECK(usage({"scene.xml", "--part", "1/2"}) == "error: --part needs one -o,--output FILE.exr\n");
+    CHECK(usage({"scene.xml", "--part", "1/2", "-o", "p.png"}) ==
+          "error: a checkpoint and a part are .exr files, and 'p.png' is none\n");
+    CHECK(usage({"scene.xml", "--part", "3/2", "-o", "p.exr"}) ==
+          "error: --part must be K/N, part K of N from 1/N to N/N and N at most 65535, not '3/2'\n");
+    CHECK(usage({"scene.xml", "--part-by", "tiles", "-o", "p.exr"}) == "error: --part-by needs --part K/N\n");
+    CHECK(usage({"scene.xml", "--part", "1/2", "--time", "3", "-o", "p.exr"}) ==
+          "error: a part is a fixed set of samples: --part goes with --spp, not with --time or "
+          "--target-error\n");
+    CHECK(usage({"scene.xml", "--resume", "-o", "p.exr"}) ==
+          "error: --resume needs --checkpoint FILE, to go on from\n");
+    CHECK(usage({"scene.xml", "--checkpoint", "p.exr", "-o", "p.exr"}) ==
+          "error: 'p.exr' is to be written twice\n");
+    CHECK(usage({"merge", "p.exr"}) ==
+          "error: merge needs -o,--output IMAGE, or --checkpoint FILE for parts that are to be merged on\n");
+}

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+
+// The law of repeatable pictures: the film depends on scene, settings, seed and the set of samples taken, and on nothing
+// else. Cases are drawn at random, from another seed in each run; a failure prints the seed, and with PLUMB_TEST_SEED set to
+// it the same cases are drawn again.
+
+#include "io/temporary_file.h"
+#include "plumb/state_file.h"
+#include "support/catch.h"
+#include "support/random.h"
+#include "support/scene_text.h"
+
+#include <atomic>
+#include <cstdlib>
+#include <random>
+
+using namespace plumb;
+using test::TestRandom;
+
+namespace {
+
+constexpr int width = 37;
+constexpr int height = 29;
+
+std::string scene_with(const std::string& integrator, const std::string& filter, const std::string& things)
+{
+    return "<scene dialect='plumb'><integrator type='" + integrator + "'/><camera type='perspective'>" +
+           "<integer name='width' value='37'/><integer name='height' value='29'/><float name='fov' "
+           "value='50'/>" +
+           "<float name='lensRadius' value='0.05'/><float name='focalDistance' value='4'/><transform "
+           "name='toWorld'>" +
+           "<lookat origin='0,1.5,5' target='0,0.6,0' up='0,1,0'/></transform><rfilter type='" + filter +
+           "'/></camera><mesh type='rectangle'><vector name='normal' value='0,1,0'/><float name='width' "
+           "value='9'/>" +
+           "<float name='height' value='9'/><bsdf type='diffuse'/></mesh>" + things + "</scene>";
+}
+
+const std::string lamp =
+    "<mesh type='rectangle'><point name='center' value='0,3,0'/><vector name='normal' "
+    "value='0,-1,0'/><emitter type='area'><color name='radiance' value='9,8,7'/></emitter></mesh>";
+const std::string ball = "<mesh type='sphere'><point name='center' value='-0.5,0.7,0'/><float name='radius' "
+                         "value='0.7'/>";
+
+// Glass with a filter of negative lobes; gloss and a point light; samples so bright that their squares are kept apart.
+const std::string scenes[] = {
+    scene_with("path_mis", "mitchell", lamp + ball + "<bsdf type='dielectric'/></mesh>"),
+    scene_with("path_nee", "gaussian",
+               lamp + ball +
+                   "<bsdf type='roughconductor'/></mesh><emitter type='pointlight'><point name='position' "
+                   "value='-3,3,2'/><color name='radiance' value='9,9,9'/></emitter>"),
+    scene_with(
+        "path", "tent",
+        ball + "<bsdf type='mirror'/></mesh><mesh type='sphere'><point name='center' value='1,1,1'/><float "
+               "name='radius' value='0.5'/><emitter type='area'><color name='radiance' "
+               "value='900000,8,7'/></emitter></mesh>"),
+};
+
+int below(TestRandom& random, int limit)
+{
+    return static_cast<int>(random.next_double() * limit);
+}
+
+bool same_bits(const RenderState& a, const RenderState& b)
+{
+    const PixelRect& window = a.film.window();
+    if (window != b.film.window() || a.taken != b.taken || a.rays.total() != b.rays.total()) return false;
+    for (int y = window.y; y < window.y + window.height; ++y)
+        for (int x = window.x; x < window.x + window.width; ++x)
+            if (a.film.words({x, y}) != b.film.words({x, y}) ||
+                a.film.large_words({x, y}) != b.film.large_words({x, y}))
+                return false;
+    return true;
+}
+
+RenderState through_a_file(RenderState state, const TempFolder& folder)
+{
+    TemporaryFile file(folder / "state.exr");
+    file.write(std::span<const unsigned char>(encode_state(state, {width, height}, {})));
+    file.take_place();
+    return read_state(folder / "state.exr").state;
+}
+
+// Takes the samples with threads, tiles and interruptions of its own; each interruption may go through a file.
+RenderState take(const RenderJob& job, RenderOptions options, const SampleSet& wanted, TestRandom& random,
+                 const TempFolder& folder)
+{
+    const Vec2i size = job.camera->resolution();
+    RenderState state{Film(render_window(job, options), size.x, size.y), {}, {}, {}};
+    for (bool done = false; !done;) {
+        options.threads = 1 + below(random, 4);
+        options.tile_size = 1 + below(random, 40);
+        Rendering rendering(job, options, std::move(state));
+        const int rows =
+            random.next_1d() < 0.5f ? 1 << 30 : 1 + below(random, 200); // until it is interrupted
+        std::atomic<int> asked = 0;
+        done = rendering.take(wanted, {}, [&] { return ++asked > rows; });
+        state = std::move(rendering).finish();
+        if (random.next_1d() < 0.2f) state = through_a_file(std::move(state), folder);
+    }
+    return state;
+}
+
+// Adds them up in a random tree.
+RenderState merge(std::vector<RenderState> parts, TestRandom& random)
+{
+    while (parts.size() > 1) {
+        const auto into = static_cast<std::size_t>(below(random, static_cast<int>(parts.size())));
+        auto from = static_cast<std::size_t>(below(random, static_cast<int>(parts.size()) - 1));
+        if (from >= into) ++from;
+        parts[into] += parts[from];
+        parts.erase(parts.begin() + static_cast<std::ptrdiff_t>(from));
+    }
+    return std::move(parts.front());
+}
+
+void check_law(int cases)
+{
+    const char* const given = std::getenv("PLUMB_TEST_SEED");
+    const std::uint64_t seed = given ? std::strtoull(given, nullptr, 10) : std::random_device()();
+    INFO("PLUMB_TEST_SEED=" << seed);
+    TestRandom random(seed);
+    const TempFolder folder;
+    std::vector<LoadedScene> loaded;
+    for (const std::string& scene : scenes) loaded.push_back(test::load_text(scene));
+    for (int i = 0; i < cases; ++i) {
+        INFO("case " << i);
+        const RenderJob& job = loaded[static_cast<std::size_t>(below(random, std::size(scenes)))].job;
+        RenderOptions options;
+        options.seed = random.next_bits();
+        options.samples_per_pixel = static_cast<std::uint64_t>(1 + below(random, 20));
+        if (random.next_1d() < 0.5f) {
+            const int x = below(random, width);
+            const int y = below(random, height);
+            options.crop = PixelRect{x, y, 1 + below(random, width - x), 1 + below(random, height - y)};
+        }
+        const RenderState expected = render(job, options);
+
+        const PartBy by = random.next_1d() < 0.5f ? PartBy::tiles : PartBy::samples;
+        const auto count = static_cast<std::uint64_t>(1 + below(random, 6));
+        std::vector<RenderState> parts;
+        for (std::uint64_t part = 0; part < count; ++part)
+            parts.push_back(
+                take(job, options,
+                     part_of(render_window(job, options), options.samples_per_pixel, by, part, count), random,
+                     folder));
+        REQUIRE(same_bits(merge(std::move(parts), random), expected));
+    }
+}
+
+} // namespace
+
+TEST_CASE("pictures depend on the samples taken and on nothing else", "[regression][determinism][law]")
+{
+    check_law(25);
+}
+
+TEST_CASE("pictures depend on the samples taken and on nothing else: at length",
+          "[regression][determinism][law][slow]")
+{
+    check_law(1000);
+}
