@@ -24,7 +24,7 @@ std::string random_kill(TestRandom& random)
     const auto choose = [&](int count) { return static_cast<int>(random.next_double() * count); };
     const std::string& phase = phases[choose(6)];
     const std::string moments[] = {"before", "half", "after"};
-    if (phase == "load") return phase + ":1:" + std::to_string(choose(400000));
+    if (phase == "load") return phase + ":1:" + std::to_string(choose(12000));
     if (phase == "build") return phase + ":1:" + std::to_string(choose(500));
     if (phase == "pass") return phase + ":1:" + std::to_string(choose(60000));
     return phase + ":" + std::to_string(1 + choose(3)) + ":" + moments[choose(3)];
