@@ -12,7 +12,8 @@
 // Conventions. A is the picture under test and B the reference; only relative errors and HDR-FLIP care. A picture has
 // channels R, G and B, or Y. What a picture knows of its noise are channels "variance.R", "variance.G", "variance.B"
 // (or "variance.Y"): the estimated variance of each pixel's mean, not a number where nobody knows. "contributing"
-// counts the samples of a pixel that were not black, and the header's plumb:samplesPerPixel all of them.
+// counts the samples of a pixel that were not black, and the header's plumb:samplesPerPixel all of them. Where
+// plumb:inputHash and plumb:integrator are equal, both are pictures of one estimator.
 
 #include "plumb/image.h"
 
@@ -117,6 +118,7 @@ struct Comparison {
     int height = 0;
     std::vector<std::string> channels; // R, G and B, or Y
     bool identical = false;            // every pixel and channel of colour has the same value
+    bool same_random_numbers = false;  // by the headers: the same inputs, integrator and seed
     Metrics metrics;
     FlipMode flip_mode = FlipMode::none;
     std::vector<float> flip_map; // empty without FLIP

@@ -52,8 +52,9 @@ std::string metrics_text(const Comparison& c)
                     fmt::format("mse {}, 95 % between {} and {}; rmse {}", number(c.corrected->squared_error),
                                 number(c.corrected->low), number(c.corrected->high),
                                 c.corrected->root ? number(*c.corrected->root) : "0"));
-        if (c.corrected->high < 0.0)
-            text += row("", "below 0: they differ less than independent noise would (the same seed?)");
+        if (c.corrected->high < 0.0 && c.same_random_numbers)
+            text +=
+                row("", "below 0: they differ less than independent noise would, for their seed is the same");
     }
     const NonFinite& n = c.non_finite;
     if (n.first)

@@ -106,6 +106,7 @@ Comparison compare(const Image& image_a, const Image& image_b, const CompareOpti
     result.height = a.window.height;
     result.channels = a.channels;
     result.identical = are_identical(a, b);
+    result.same_random_numbers = share_random_numbers(a, b);
     result.metrics = measure(a, b);
     result.flip_mode = options.flip;
     add_flip(result, a, b, options.flip);

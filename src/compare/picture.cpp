@@ -53,6 +53,25 @@ std::optional<double> samples_per_pixel(const Image& image)
     return {};
 }
 
+// Empty if there is no such entry.
+std::string header_text(const Image& image, std::string_view name)
+{
+    for (const auto& [key, value] : image.metadata) {
+        if (key != name) continue;
+        if (const auto* text = std::get_if<std::string>(&value)) return *text;
+        if (const int* number = std::get_if<int>(&value)) return std::to_string(*number);
+    }
+    return {};
+}
+
+// The hash is of the scene's files and of what the command line makes of them.
+std::string estimator_of(const Image& image)
+{
+    const std::string inputs = header_text(image, "plumb:inputHash");
+    const std::string integrator = header_text(image, "plumb:integrator");
+    return inputs.empty() || integrator.empty() ? "" : inputs + " " + integrator;
+}
+
 const char* name_of(Side side)
 {
     return side == Side::a ? "A" : "B";
@@ -108,11 +127,23 @@ Picture make_picture(const Image& image, Side side)
         if (const auto found = find_channels(image, {"contributing"}))
             picture.contributing = read_channels(image, *found);
         picture.samples_per_pixel = samples_per_pixel(image);
+        picture.estimator = estimator_of(image);
+        picture.seed = header_text(image, "plumb:seed");
         return picture;
     }
     throw Error(
         fmt::format("{} has neither the channels R, G and B nor Y, but {}; only these can be compared",
                     name_of(side), fmt::join(image.channel_names(), ", ")));
+}
+
+bool are_of_one_estimator(const Picture& a, const Picture& b)
+{
+    return !a.estimator.empty() && a.estimator == b.estimator;
+}
+
+bool share_random_numbers(const Picture& a, const Picture& b)
+{
+    return are_of_one_estimator(a, b) && !a.seed.empty() && a.seed == b.seed;
 }
 
 void check_comparable(const Picture& a, const Picture& b)

@@ -16,6 +16,8 @@ struct Picture {
     std::vector<float> variances;      // likewise; empty: unknown
     std::vector<float> contributing;   // one a pixel; empty: unknown
     std::optional<double> samples_per_pixel;
+    std::string estimator; // what the header says of scene, settings and integrator; empty: not enough
+    std::string seed;      // of its random numbers; empty: unknown
 
     std::size_t pixels() const { return values.size() / channels.size(); }
     bool is_exact = false; // has no noise, whatever the channels say
@@ -36,6 +38,11 @@ struct Picture {
 
 // `side` names the picture in messages. Throws Error if it has neither R, G and B nor Y.
 Picture make_picture(const Image& image, Side side);
+
+// The samples of both have one distribution: the headers name the same inputs, settings and integrator.
+bool are_of_one_estimator(const Picture& a, const Picture& b);
+// And the same random numbers.
+bool share_random_numbers(const Picture& a, const Picture& b);
 
 // Of both pictures: the same channels, sizes and windows. Throws Error.
 void check_comparable(const Picture& a, const Picture& b);

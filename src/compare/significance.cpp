@@ -15,8 +15,11 @@ namespace plumb {
 namespace {
 
 constexpr double share_of_whole = 0.5;
-// Squares below this size take their variance to be at least that of the square of this size around them.
-constexpr int neighbourhood = 16;
+// Squares below this size take their variance to be at least that of the square of this size around them, as rare bright
+// samples may all have been missed in the small one. Where both are pictures of one estimator, what one has missed the
+// other tells of; else neither may, and more of the surroundings must.
+constexpr int surroundings_of_one_estimator = 16;
+constexpr int surroundings_of_two = 64;
 
 enum class State : std::uint8_t { usable, unusable, differs };
 
@@ -54,11 +57,13 @@ public:
         : a_(a), b_(b), options_(options), states_(a.pixels(), State::usable), covered_(a.pixels(), false)
     {
         sampling_ = {a.samples_per_pixel, b.samples_per_pixel, a.is_exact, b.is_exact, options.rounding};
+        if (sampling_.noise_is_shared() && are_of_one_estimator(a, b))
+            surroundings_ = surroundings_of_one_estimator;
         for (std::size_t i = 0; i < states_.size(); ++i)
             if (!a.is_finite(i) || !b.is_finite(i) || !a.variance_is_known(i) || !b.variance_is_known(i))
                 states_[i] = State::unusable;
         for (std::size_t channel = 0; channel < a.channels.size(); ++channel)
-            neighbours_.push_back(sums(Squares(neighbourhood, a.window), channel));
+            around_.push_back(sums(Squares(surroundings_, a.window), channel));
     }
 
     Significance run()
@@ -114,10 +119,10 @@ private:
 
     Deviation deviation_of(const UnitSums& unit, const PixelRect& place, int size, std::size_t channel) const
     {
-        if (size == 0 || size >= neighbourhood) return deviation(unit, sampling_, {});
-        const Squares squares(neighbourhood, a_.window);
+        if (size == 0 || size >= surroundings_) return deviation(unit, sampling_, {});
+        const Squares squares(surroundings_, a_.window);
         const UnitSums& around =
-            neighbours_[channel][squares.index(place.x - a_.window.x, place.y - a_.window.y)];
+            around_[channel][squares.index(place.x - a_.window.x, place.y - a_.window.y)];
         const double pixels = static_cast<double>(std::max<std::uint64_t>(around.pixels, 1));
         return deviation(unit, sampling_, LeastNoise{around.a.variance / pixels, around.b.variance / pixels});
     }
@@ -241,8 +246,9 @@ private:
     const CompareOptions& options_;
     Sampling sampling_;
     std::vector<State> states_;
-    std::vector<bool> covered_;                     // in a square that was tested
-    std::vector<std::vector<UnitSums>> neighbours_; // for each channel
+    std::vector<bool> covered_; // in a square that was tested
+    int surroundings_ = surroundings_of_two;
+    std::vector<std::vector<UnitSums>> around_; // of small squares, for each channel
 };
 
 } // namespace

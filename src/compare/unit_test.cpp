@@ -65,15 +65,22 @@ Deviation deviation(const UnitSums& sums, const Sampling& sampling, const std::o
     if (mean_b > 0.0) variance_b *= sqr(larger / mean_b);
     if (sampling.a_is_exact) variance_a = 0.0;
     if (sampling.b_is_exact) variance_b = 0.0;
-    const bool both_are_noisy = !sampling.a_is_exact && !sampling.b_is_exact;
-    if (least && both_are_noisy && sampling.samples_a && sampling.samples_b) {
+    // Degrees of freedom of each part of the variance; with one source for both, they do not add up.
+    double inverse_freedom = 0.0;
+    if (sampling.noise_is_shared()) {
         const double ratio = *sampling.samples_b / *sampling.samples_a;
-        const double from_b = variance_b * ratio;
-        const double from_a = variance_a / ratio;
-        variance_a = std::max(variance_a, from_b);
-        variance_b = std::max(variance_b, from_a);
+        const bool from_a = variance_a >= variance_b * ratio;
+        if (from_a)
+            variance_b = variance_a / ratio;
+        else
+            variance_a = variance_b * ratio;
+        if (variance_a > 0.0) inverse_freedom = 1.0 / (from_a ? sums.a : sums.b).degrees_of_freedom();
     }
     const double variance = variance_a + variance_b;
+    if (!sampling.noise_is_shared()) {
+        if (variance_a > 0.0) inverse_freedom += sqr(variance_a / variance) / sums.a.degrees_of_freedom();
+        if (variance_b > 0.0) inverse_freedom += sqr(variance_b / variance) / sums.b.degrees_of_freedom();
+    }
 
     // Welch's t [1], but for what rounding may have done.
     Deviation result;
@@ -83,9 +90,6 @@ Deviation deviation(const UnitSums& sums, const Sampling& sampling, const std::o
     if (beyond > 0.0)
         result.t = std::copysign(
             variance > 0.0 ? beyond / std::sqrt(variance) : static_cast<double>(infinity), difference);
-    double inverse_freedom = 0.0;
-    if (variance_a > 0.0) inverse_freedom += sqr(variance_a / variance) / sums.a.degrees_of_freedom();
-    if (variance_b > 0.0) inverse_freedom += sqr(variance_b / variance) / sums.b.degrees_of_freedom();
     result.freedom = inverse_freedom > 0.0 ? 1.0 / inverse_freedom : static_cast<double>(infinity);
     return result;
 }

@@ -39,6 +39,9 @@ struct Sampling {
     bool a_is_exact = false;
     bool b_is_exact = false;
     double rounding = 0.0;
+
+    // What one picture tells of the noise of a sample can be told of the other's.
+    bool noise_is_shared() const { return samples_a && samples_b && !a_is_exact && !b_is_exact; }
 };
 
 // Whether a test of the square may be trusted: from both pictures, enough effective samples and degrees of freedom,
@@ -56,14 +59,15 @@ struct Deviation {
     double standard_error = 0.0; // relative to the larger of both sums
 };
 
-// What is believed of the noise in a small square, where rare bright samples may all have been missed: a pixel's
-// variance is not below these, and the samples of the one picture are as noisy as those of the other.
+// What the surroundings of a small square tell of its noise, as rare bright samples may all have been missed in it: a
+// pixel's variance is not below these.
 struct LeastNoise {
     double a = 0.0;
     double b = 0.0;
 };
 
-// Of a supported square.
+// Of a supported square. A picture that has missed rare bright samples in the whole square does not know its noise, but
+// the other one may: samples of either are taken to be as noisy as the noisier ones.
 Deviation deviation(const UnitSums& sums, const Sampling& sampling, const std::optional<LeastNoise>& least);
 
 } // namespace plumb

@@ -32,14 +32,19 @@ std::string_view name_of(Other other)
 
 Comparison compare_pair(const NoisyPicture& how, const SampleKind& kind, Other other, std::uint64_t seed)
 {
-    NoisyPicture how_b = how;
+    NoisyPicture how_a = how;
+    how_a.estimator = "path";
+    NoisyPicture how_b = how_a;
     how_b.bias = 1.0;
     if (other == Other::more_samples) how_b.samples *= 16;
-    if (other == Other::smooth) how_b.samples = 64;
+    if (other == Other::smooth) {
+        how_b.samples = 64;
+        how_b.estimator = "smooth";
+    }
     CompareOptions options;
     options.flip = FlipMode::none;
     if (other == Other::exact) options.exact = Side::b;
-    const Image a = noisy_picture(how, kind, 2 * seed);
+    const Image a = noisy_picture(how_a, kind, 2 * seed);
     return compare(
         a,
         other == Other::exact
@@ -91,6 +96,22 @@ TEST_CASE("compare keeps its error rate, in short", "[statistical][compare]")
         }
 }
 
+// Both pictures, or the one of few samples, have missed the rare light in many squares of 16x16 pixels: `number` is how
+// many rare samples they expect of one.
+TEST_CASE("compare keeps its error rate where rare bright samples add to ordinary light",
+          "[statistical][compare]")
+{
+    const std::vector<double> numbers = {0.6, 2.0, 5.0};
+    const double level = sidak_level(significance, 4 * numbers.size());
+    for (const double number : numbers)
+        for (const Other other : all_others) {
+            NoisyPicture how;
+            how.size = 64;
+            how.samples = 16;
+            check_false_alarms(how, rare_light(0.3, number / (256.0 * how.samples)), other, 20, level);
+        }
+}
+
 TEST_CASE("compare keeps its error rate", "[statistical][compare][slow]")
 {
     struct Case {
@@ -109,6 +130,10 @@ TEST_CASE("compare keeps its error rate", "[statistical][compare][slow]")
              {normal_samples(0.3), exponential_samples(), lognormal_samples(1.0), lognormal_samples(2.0)})
             cases.push_back({kind, 16, samples, trials});
     }
+    for (const double share : {0.1, 0.6})
+        for (const double number : {0.6, 1.0, 10.0})
+            for (const int samples : {16, 64, 256})
+                cases.push_back({rare_light(share, number / (256.0 * samples)), 64, samples, 80});
     const double level = sidak_level(significance, 4 * cases.size());
     for (const Case& test : cases)
         for (const Other other : all_others) {

@@ -79,12 +79,36 @@ inline SampleKind hits(double chance)
             }};
 }
 
+// Ordinary light, whose samples deviate by 0.3, and this share of all light from rare bright samples. Draws the sums
+// alone: the ordinary samples' sum of squares by Wilson and Hilferty's approximation of chi^2.
+inline SampleKind rare_light(double share, double chance)
+{
+    const SampleKind bright = hits(chance);
+    const std::string name = "rare light " + std::to_string(share) + ", " + bright.name;
+    return {name, [share, chance, bright](int count, TestRandom& random) {
+                constexpr double deviation = 0.3;
+                const double n = count;
+                const double mean = 1.0 - share + deviation * draw_normal(random) / std::sqrt(n);
+                const double w = 2.0 / (9.0 * (n - 1.0));
+                const double cube_root = 1.0 - w + draw_normal(random) * std::sqrt(w);
+                const double spread = deviation * deviation * (n - 1.0) * cube_root * cube_root * cube_root;
+                const double number = bright.draw(count, random).contributing;
+                const double height = share / chance;
+                SampleSums sums;
+                sums.contributing = n;
+                sums.sum = n * mean + number * height;
+                sums.squares = n * mean * mean + spread + number * height * (height + 2.0 * (1.0 - share));
+                return sums;
+            }};
+}
+
 struct NoisyPicture {
     int size = 16; // of a side
     int samples = 64;
     double bias = 1.0;     // factor of all pixels
     double contrast = 1.0; // ratio of the brightest pixel to the darkest
     bool knows_noise = true;
+    std::string estimator = {};                // what the header says of the integrator
     std::vector<std::string> channels = {"Y"}; // all the same
 };
 
@@ -97,6 +121,11 @@ inline Image noisy_picture(const NoisyPicture& how, const SampleKind& kind, std:
     }
     Image image({0, 0, how.size, how.size}, how.size, how.size, names);
     image.metadata.emplace_back("plumb:samplesPerPixel", how.samples);
+    if (!how.estimator.empty()) {
+        image.metadata.emplace_back("plumb:integrator", how.estimator);
+        image.metadata.emplace_back("plumb:inputHash", "0123");
+        image.metadata.emplace_back("plumb:seed", std::to_string(seed));
+    }
     TestRandom random(seed);
     const double n = how.samples;
     for (int y = 0; y < how.size; ++y) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "cli/comparison_text.h"
 #include "plumb/compare.h"
 #include "plumb/error.h"
 #include "support/catch.h"
@@ -36,6 +37,24 @@ CompareOptions without_flip()
 }
 
 constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
+
+// Every pixel has this mean, and the variance that so many samples have.
+Image sampled(int size, float mean, float variance_of_sample, int samples)
+{
+    Image image = grey(size, size, mean, {"Y", "variance.Y"});
+    for (int y = 0; y < size; ++y)
+        for (int x = 0; x < size; ++x)
+            image.pixel(x, y)[1] = variance_of_sample / static_cast<float>(samples);
+    image.metadata.emplace_back("plumb:samplesPerPixel", samples);
+    return image;
+}
+
+void describe(Image& image, const std::string& integrator, const std::string& seed)
+{
+    image.metadata.emplace_back("plumb:inputHash", "0123");
+    image.metadata.emplace_back("plumb:integrator", integrator);
+    image.metadata.emplace_back("plumb:seed", seed);
+}
 
 } // namespace
 
@@ -262,6 +281,54 @@ TEST_CASE("what the data do not support is not tested", "[unit][compare]")
                       without_flip())
                   .outcome == CompareOutcome::undecided);
     }
+}
+
+TEST_CASE("rare light that one picture has missed is no difference", "[unit][compare]")
+{
+    SECTION("where the other picture tells of it")
+    {
+        // 4096 samples, none of which is bright, and 262144: the mean of so few deviates by 0.11.
+        const Image few = sampled(16, 1.f, 0.01f, 16);
+        CHECK(compare(few, sampled(16, 1.3f, 50.f, 1024), without_flip()).outcome == CompareOutcome::passes);
+        CHECK(compare(few, sampled(16, 1.8f, 50.f, 1024), without_flip()).outcome == CompareOutcome::differs);
+        CHECK(compare(few, sampled(16, 1.3f, 5.f, 1024), without_flip()).outcome == CompareOutcome::differs);
+    }
+    SECTION("where the surroundings tell of it")
+    {
+        // The noise of all pixels but those of a square of 16x16.
+        const auto outcome = [](float variance_around, const std::string& other_integrator) {
+            Image image = sampled(64, 1.f, variance_around, 64);
+            for (int y = 16; y < 32; ++y)
+                for (int x = 16; x < 32; ++x) {
+                    image.pixel(x, y)[0] = 0.8f;
+                    image.pixel(x, y)[1] = 0.01f / 64.f;
+                }
+            describe(image, "path", "1");
+            Image reference = sampled(64, 1.f, 0.01f, 1024);
+            describe(reference, other_integrator, "2");
+            return compare(image, reference, without_flip()).outcome;
+        };
+        CHECK(outcome(100.f, "smooth") == CompareOutcome::passes);
+        CHECK(outcome(1.f, "smooth") == CompareOutcome::differs);
+        // The same estimator, but the picture of more samples knows of no rare light.
+        CHECK(outcome(100.f, "path") == CompareOutcome::differs);
+    }
+}
+
+TEST_CASE("pictures too alike are said to be of one seed only if they are", "[unit][compare]")
+{
+    const auto text = [](const std::string& seed, const std::string& integrator) {
+        Image a = sampled(16, 1.f, 1.f, 16);
+        Image b = sampled(16, 1.001f, 1.f, 16);
+        describe(a, "path", "7");
+        describe(b, integrator, seed);
+        const Comparison comparison = compare(a, b, without_flip());
+        REQUIRE(comparison.corrected->high < 0.0);
+        return comparison_text(comparison, without_flip());
+    };
+    CHECK_THAT(text("7", "path"), ContainsSubstring("for their seed is the same"));
+    CHECK_THAT(text("8", "path"), !ContainsSubstring("seed"));
+    CHECK_THAT(text("7", "path_mis"), !ContainsSubstring("seed"));
 }
 
 TEST_CASE("rounding is no difference", "[unit][compare]")
