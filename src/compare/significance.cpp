@@ -10,16 +10,17 @@
 #include "compare/unit_test.h"
 #include "plumb/statistics.h"
 
+#include <array>
+
 namespace plumb {
 
 namespace {
 
 constexpr double share_of_whole = 0.5;
-// Squares below this size take their variance to be at least that of the square of this size around them, as rare bright
+// Squares below such a size take their variance to be at least that of the square of this size around them, as rare bright
 // samples may all have been missed in the small one. Where both are pictures of one estimator, what one has missed the
-// other tells of; else neither may, and more of the surroundings must.
-constexpr int surroundings_of_one_estimator = 16;
-constexpr int surroundings_of_two = 64;
+// other tells of, and the first will do; else neither may, and more of the surroundings must.
+constexpr std::array surroundings = {16, 64};
 
 enum class State : std::uint8_t { usable, unusable, differs };
 
@@ -57,13 +58,15 @@ public:
         : a_(a), b_(b), options_(options), states_(a.pixels(), State::usable), covered_(a.pixels(), false)
     {
         sampling_ = {a.samples_per_pixel, b.samples_per_pixel, a.is_exact, b.is_exact, options.rounding};
-        if (sampling_.noise_is_shared() && are_of_one_estimator(a, b))
-            surroundings_ = surroundings_of_one_estimator;
         for (std::size_t i = 0; i < states_.size(); ++i)
             if (!a.is_finite(i) || !b.is_finite(i) || !a.variance_is_known(i) || !b.variance_is_known(i))
                 states_[i] = State::unusable;
-        for (std::size_t channel = 0; channel < a.channels.size(); ++channel)
-            around_.push_back(sums(Squares(surroundings_, a.window), channel));
+        const bool is_told = sampling_.noise_is_shared() && are_of_one_estimator(a, b);
+        for (std::size_t level = 0; level < (is_told ? 1 : surroundings.size()); ++level) {
+            around_.emplace_back();
+            for (std::size_t channel = 0; channel < a.channels.size(); ++channel)
+                around_[level].push_back(sums(Squares(surroundings[level], a.window), channel));
+        }
     }
 
     Significance run()
@@ -119,12 +122,18 @@ private:
 
     Deviation deviation_of(const UnitSums& unit, const PixelRect& place, int size, std::size_t channel) const
     {
-        if (size == 0 || size >= surroundings_) return deviation(unit, sampling_, {});
-        const Squares squares(surroundings_, a_.window);
-        const UnitSums& around =
-            around_[channel][squares.index(place.x - a_.window.x, place.y - a_.window.y)];
-        const double pixels = static_cast<double>(std::max<std::uint64_t>(around.pixels, 1));
-        return deviation(unit, sampling_, LeastNoise{around.a.variance / pixels, around.b.variance / pixels});
+        std::optional<LeastNoise> least;
+        for (std::size_t level = 0; level < around_.size(); ++level) {
+            if (size == 0 || size >= surroundings[level]) continue;
+            const Squares squares(surroundings[level], a_.window);
+            const UnitSums& around =
+                around_[level][channel][squares.index(place.x - a_.window.x, place.y - a_.window.y)];
+            const double pixels = static_cast<double>(std::max<std::uint64_t>(around.pixels, 1));
+            if (!least) least.emplace();
+            least->a = std::max(least->a, around.a.variance / pixels);
+            least->b = std::max(least->b, around.b.variance / pixels);
+        }
+        return deviation(unit, sampling_, least);
     }
 
     // p: of this test alone.
@@ -246,9 +255,8 @@ private:
     const CompareOptions& options_;
     Sampling sampling_;
     std::vector<State> states_;
-    std::vector<bool> covered_; // in a square that was tested
-    int surroundings_ = surroundings_of_two;
-    std::vector<std::vector<UnitSums>> around_; // of small squares, for each channel
+    std::vector<bool> covered_;                              // in a square that was tested
+    std::vector<std::vector<std::vector<UnitSums>>> around_; // of each size of surroundings, in each channel
 };
 
 } // namespace

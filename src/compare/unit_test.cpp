@@ -65,7 +65,7 @@ Deviation deviation(const UnitSums& sums, const Sampling& sampling, const std::o
     if (mean_b > 0.0) variance_b *= sqr(larger / mean_b);
     if (sampling.a_is_exact) variance_a = 0.0;
     if (sampling.b_is_exact) variance_b = 0.0;
-    // Degrees of freedom of each part of the variance; with one source for both, they do not add up.
+    // One noise for both is known no better than by the fewer degrees of freedom.
     double inverse_freedom = 0.0;
     if (sampling.noise_is_shared()) {
         const double ratio = *sampling.samples_b / *sampling.samples_a;
@@ -74,7 +74,8 @@ Deviation deviation(const UnitSums& sums, const Sampling& sampling, const std::o
             variance_b = variance_a / ratio;
         else
             variance_a = variance_b * ratio;
-        if (variance_a > 0.0) inverse_freedom = 1.0 / (from_a ? sums.a : sums.b).degrees_of_freedom();
+        if (variance_a > 0.0)
+            inverse_freedom = 1.0 / std::min(sums.a.degrees_of_freedom(), sums.b.degrees_of_freedom());
     }
     const double variance = variance_a + variance_b;
     if (!sampling.noise_is_shared()) {
