@@ -61,7 +61,7 @@ int info_command(const Options& options)
     print_row("size", fmt::format("{} x {}", image.full_width(), image.full_height()));
     const PixelRect& window = image.data_window();
     if (window != PixelRect{0, 0, image.full_width(), image.full_height()})
-        print_row("crop", fmt::format("{},{},{},{}", window.x, window.y, window.width, window.height));
+        print_row("crop", rectangle_text(window));
     std::string channels;
     for (const std::string& name : image.channel_names()) channels += (channels.empty() ? "" : " ") + name;
     print_value("channels", channels);

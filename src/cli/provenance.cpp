@@ -46,6 +46,14 @@ std::string header_text(const Metadata& header, std::string_view name)
     return {};
 }
 
+std::optional<int> header_integer(const Metadata& header, std::string_view name)
+{
+    for (const auto& [key, value] : header)
+        if (key == name)
+            if (const int* const integer = std::get_if<int>(&value)) return *integer;
+    return std::nullopt;
+}
+
 std::vector<std::string> input_changes(const Metadata& then, const Metadata& now)
 {
     std::map<std::string, std::string> expected = hash_of_name(header_text(then, "plumb:inputs"));

@@ -5,6 +5,7 @@
 
 #include "plumb/image.h"
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,6 +14,9 @@ namespace plumb {
 
 // The value of that name; empty if there is none or if it is no text.
 std::string header_text(const Metadata& header, std::string_view name);
+
+// The integer of that name; nothing if there is none.
+std::optional<int> header_integer(const Metadata& header, std::string_view name);
 
 // What is different in the files that were read, by plumb:inputs, and what options and dialect made of them, by
 // plumb:inputHash: "'a.obj' has changed". Empty: nothing.

@@ -96,11 +96,9 @@ private:
                 print_log(fmt::format("there is no '{}' yet: starting with the first sample", name));
             return {Film(window_, resolution_.x, resolution_.y), {}, {}, {}};
         }
-        const PixelRect& window = file->state.film.window();
-        if (window != window_)
-            throw Error(fmt::format("cannot go on from '{}': it has the pixels {},{},{},{}, not {},{},{},{}",
-                                    name, window.x, window.y, window.width, window.height, window_.x,
-                                    window_.y, window_.width, window_.height));
+        if (const PixelRect& window = file->state.film.window(); window != window_)
+            throw Error(fmt::format("cannot go on from '{}': it has the pixels {}, not {}", name,
+                                    rectangle_text(window), rectangle_text(window_)));
         if (const SampleSet more = file->state.taken - most_wanted(); !more.empty())
             throw Error(fmt::format("cannot go on from '{}': it has samples that are not asked for: {}", name,
                                     more.text()));

@@ -100,6 +100,11 @@ std::string list_text(const std::vector<std::string>& items)
     return text;
 }
 
+std::string rectangle_text(const PixelRect& rectangle)
+{
+    return fmt::format("{},{},{},{}", rectangle.x, rectangle.y, rectangle.width, rectangle.height);
+}
+
 std::string lines_text(const std::vector<std::string>& items)
 {
     std::string text;

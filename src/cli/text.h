@@ -21,8 +21,9 @@ std::string_view verdict_text(Verdict verdict);                // "not finite"
 std::string list_text(const std::vector<std::string>& items);  // a, b and c
 std::string lines_text(const std::vector<std::string>& items); // one a line, no line end after the last
 std::vector<std::string> lines_of(
-    std::string_view text);                     // the inverse, for items without line ends that are not empty
-std::string shell_quote(std::string_view word); // as it is if harmless, else in single quotes
+    std::string_view text); // the inverse, for items without line ends that are not empty
+std::string rectangle_text(const PixelRect& rectangle);      // X,Y,WIDTH,HEIGHT
+std::string shell_quote(std::string_view word);              // as it is if harmless, else in single quotes
 std::vector<std::string> shell_split(std::string_view line); // the words that shell_quote() made a line of
 std::string visible_text(std::string_view text);             // control characters as \x1b
 // Valid UTF-8: what is not becomes U+FFFD.

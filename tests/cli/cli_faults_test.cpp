@@ -2,6 +2,7 @@
 
 // What goes wrong around a long rendering: disks, folders, memory, and files that change meanwhile.
 
+#include "build_paths.h"
 #include "cli/small_scene.h"
 #include "support/catch.h"
 

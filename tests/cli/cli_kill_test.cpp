@@ -3,6 +3,7 @@
 // kill -9 at any moment of any phase, many times in a row: the picture that comes out at last is that of a rendering
 // nobody disturbed.
 
+#include "build_paths.h"
 #include "cli/small_scene.h"
 #include "support/catch.h"
 #include "support/random.h"

@@ -2,6 +2,7 @@
 
 // `renderer test`.
 
+#include "build_paths.h"
 #include "support/catch.h"
 #include "support/run.h"
 

@@ -2,6 +2,7 @@
 
 // What the program prints.
 
+#include "build_paths.h"
 #include "cli/small_scene.h"
 #include "plumb/scene_file.h"
 #include "support/catch.h"

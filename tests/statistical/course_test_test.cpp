@@ -2,6 +2,7 @@
 
 // The tests of test files: that right ones pass, wrong ones fail, and the p-values are what they should be.
 
+#include "build_paths.h"
 #include "course_tests/quadrature.h"
 #include "course_tests/statistic.h"
 #include "plumb/course_test.h"

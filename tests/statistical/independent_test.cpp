@@ -4,6 +4,7 @@
 // precision, says of them (references/independent/README.md), by the test of `renderer compare`. Nothing of Plumb went
 // into those references, but the reading of the scene files.
 
+#include "build_paths.h"
 #include "plumb/compare.h"
 #include "plumb/scene_file.h"
 #include "support/catch.h"

@@ -3,6 +3,7 @@
 // The project's own scenes: path, path_nee and path_mis converge to the same picture. That the pictures of references/ are
 // what they converge to is tested by regression/suite.xml.
 
+#include "build_paths.h"
 #include "support/catch.h"
 #include "support/statistics.h"
 

@@ -3,6 +3,7 @@
 
 // Running the real program.
 
+#include "build_paths.h"
 #include "support/temp_folder.h"
 
 #include <cerrno>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Every file in tests/scenes/bad beside the exact text of what is wrong with it.
 
+#include "build_paths.h"
 #include "plumb/scene_file.h"
 #include "support/bad_files.h"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Every file in tests/scenes/bad_tests, a test file of a course, beside the exact text of what is wrong with it.
 
+#include "build_paths.h"
 #include "plumb/test_file.h"
 #include "support/bad_files.h"
 
