@@ -26,15 +26,9 @@ struct Merged {
 
 std::uint64_t wanted_samples(const StateFile& file)
 {
-    for (const auto& [name, value] : file.header)
-        if (const int* const samples = std::get_if<int>(&value); samples && name == "plumb:workWanted")
-            return static_cast<std::uint64_t>(*samples);
+    if (const auto samples = header_integer(file.header, "plumb:workWanted"))
+        return static_cast<std::uint64_t>(*samples);
     return file.state.taken.samples_per_pixel(file.state.film.window()).most;
-}
-
-std::string rectangle_text(const PixelRect& r)
-{
-    return fmt::format("{},{},{},{}", r.x, r.y, r.width, r.height);
 }
 
 // Throws Error if the part is not one of the same picture, or has samples that are there already.

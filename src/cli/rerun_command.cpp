@@ -60,10 +60,8 @@ SampleSet samples_of(const Metadata& recipe, const PixelRect& window, const std:
 {
     if (const std::string text = header_text(recipe, "plumb:samplesTaken"); !text.empty())
         if (const auto samples = SampleSet::from_text(text)) return *samples;
-    for (const auto& [name, value] : recipe)
-        if (const int* const samples = std::get_if<int>(&value);
-            samples && name == "plumb:samplesPerPixel" && *samples > 0)
-            return SampleSet(SampleBlock{window, 0, static_cast<std::uint64_t>(*samples)});
+    if (const auto samples = header_integer(recipe, "plumb:samplesPerPixel"); samples && *samples > 0)
+        return SampleSet(SampleBlock{window, 0, static_cast<std::uint64_t>(*samples)});
     throw Error(fmt::format("the header of '{}' does not say which samples it has", image_file));
 }
 
