@@ -17,6 +17,12 @@ enum class Measure { best, area, solid_angle };
 
 class Emitter;
 
+// Where light arrives, as far as the choice among emitters may depend on it. World space.
+struct LightReceiver {
+    Vec3f position{0.f};
+    Vec3f normal{0.f}; // unit vector: only light from its side counts; zero: light from all around does
+};
+
 struct EmitterValue {
     Color radiance;
     float pdf = 0.f; // per unit solid angle, as sample() in the same measure would have chosen this direction

@@ -51,13 +51,15 @@ public:
 
     // A point of one emitter, chosen by u_choice (which is used up: what is left of it selects a part of the
     // emitter), among all or among point and directional lights alone. pdf includes the choice.
-    std::optional<EmitterSample> sample_emitter(const Vec3f& from, double u_choice, const Vec2f& u,
-                                                Measure measure = Measure::best) const;
-    std::optional<EmitterSample> sample_delta_emitter(const Vec3f& from, double u_choice,
+    std::optional<EmitterSample> sample_emitter(const LightReceiver& receiver, double u_choice,
+                                                const Vec2f& u, Measure measure = Measure::best) const;
+    std::optional<EmitterSample> sample_delta_emitter(const LightReceiver& receiver, double u_choice,
                                                       const Vec2f& u) const;
-    // What a ray from `from` along unit wi sees: the emitter of the surface it hit or, with hit == nullptr, all
-    // infinite emitters. pdf: as sample_emitter would have chosen it. Black where nothing is emitted.
-    EmitterValue emission(const Vec3f& from, const Vec3f& wi, const SurfacePoint* hit,
+    // What a ray from the receiver along unit wi sees: the emitter of the surface it hit or, with hit == nullptr,
+    // all infinite emitters. pdf: as sample_emitter would have chosen it for the same receiver (of which cameras and
+    // discrete bounces, whose directions no other technique finds, need no more than the position). Black where
+    // nothing is emitted.
+    EmitterValue emission(const LightReceiver& receiver, const Vec3f& wi, const SurfacePoint* hit,
                           Measure measure = Measure::best) const;
 
     bool has_delta_emitters() const { return delta_choice_.can_sample(); }
@@ -72,8 +74,9 @@ public:
 private:
     class Accel;
     std::optional<EmitterSample> sample_chosen(const Emitter& emitter,
-                                               const DiscreteDistribution::Choice& choice, const Vec3f& from,
-                                               const Vec2f& u, Measure measure) const;
+                                               const DiscreteDistribution::Choice& choice,
+                                               const LightReceiver& receiver, const Vec2f& u,
+                                               Measure measure) const;
 
     SceneOptions options_;
     std::vector<SceneObject> objects_;

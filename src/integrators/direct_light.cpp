@@ -55,7 +55,7 @@ Color light_from_one_emitter(Tracer& tracer, Sampler& sampler, const Vertex& ver
     if (!vertex.has_smooth_lobes()) return Color(0.f);
     const double u_choice = sampler.next_choice();
     const Vec2f u = sampler.next_2d();
-    const auto light = tracer.scene().sample_emitter(vertex.at().position, u_choice, u);
+    const auto light = tracer.scene().sample_emitter(vertex.receiver(), u_choice, u);
     if (!light) return Color(0.f);
     const BsdfValue value = vertex.evaluate(light->wi);
     const float weight = light->is_delta ? 1.f : mis_weight(heuristic, light->pdf, value.pdf);
@@ -67,7 +67,7 @@ Color light_from_one_delta_emitter(Tracer& tracer, Sampler& sampler, const Verte
     if (!tracer.scene().has_delta_emitters() || !vertex.has_smooth_lobes()) return Color(0.f);
     const double u_choice = sampler.next_choice();
     const Vec2f u = sampler.next_2d();
-    const auto light = tracer.scene().sample_delta_emitter(vertex.at().position, u_choice, u);
+    const auto light = tracer.scene().sample_delta_emitter(vertex.receiver(), u_choice, u);
     if (!light) return Color(0.f);
     return light_through(tracer, vertex, *light, vertex.evaluate(light->wi).f_cos);
 }
@@ -96,7 +96,7 @@ Color light_along(Tracer& tracer, const Vertex& vertex, const std::optional<Bsdf
     const Vec3f direction = vertex.to_world(*sampled);
     const auto hit = tracer.intersect(vertex.at().spawn_ray(direction), RayKind::bounce);
     return sampled->weight *
-           tracer.scene().emission(vertex.at().position, direction, hit ? &*hit : nullptr).radiance;
+           tracer.scene().emission(vertex.receiver(), direction, hit ? &*hit : nullptr).radiance;
 }
 
 void require_solid_angle(const Scene& scene, const char* parameter)

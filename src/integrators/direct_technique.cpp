@@ -74,7 +74,7 @@ Color DirectTechnique::estimate(Tracer& tracer, Sampler& sampler, const Vertex& 
 float DirectTechnique::density(const Scene& scene, const Vertex& vertex, const Vec3f& wo_world,
                                const BsdfValue& value, const SurfacePoint* hit) const
 {
-    if (samples_emitters()) return scene.emission(vertex.at().position, wo_world, hit, measure()).pdf;
+    if (samples_emitters()) return scene.emission(vertex.receiver(), wo_world, hit, measure()).pdf;
     const bool by_bsdf = kind_ == Kind::bsdf || vertex.has_discrete_lobes() || vertex.has_transmission();
     return by_bsdf ? value.pdf : hemisphere_pdf(warp_, vertex.at().shading.to_local(wo_world));
 }
@@ -91,7 +91,7 @@ std::optional<DirectTechnique::Found> DirectTechnique::find(Tracer& tracer, Samp
     if (value.f_cos.is_black()) return std::nullopt;
     const auto hit = tracer.intersect(vertex.at().spawn_ray(wo_world), RayKind::bounce);
     const SurfacePoint* point = hit ? &*hit : nullptr;
-    const Color radiance = tracer.scene().emission(vertex.at().position, wo_world, point).radiance;
+    const Color radiance = tracer.scene().emission(vertex.receiver(), wo_world, point).radiance;
     if (radiance.is_black()) return std::nullopt;
     return Found{value.f_cos * radiance, sampled->pdf,
                  other.density(tracer.scene(), vertex, wo_world, value, point)};
@@ -103,7 +103,7 @@ std::optional<DirectTechnique::Found> DirectTechnique::find_by_emitter(Tracer& t
 {
     const double u_choice = sampler.next_choice();
     const Vec2f u = sampler.next_2d();
-    const auto light = tracer.scene().sample_emitter(vertex.at().position, u_choice, u, measure());
+    const auto light = tracer.scene().sample_emitter(vertex.receiver(), u_choice, u, measure());
     if (!light || light->is_delta) return std::nullopt;
     const BsdfValue value = vertex.evaluate(light->wi);
     const Color contribution = value.f_cos * light->radiance;

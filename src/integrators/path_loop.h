@@ -18,22 +18,22 @@ namespace plumb {
 
 // What a path remembers of its way.
 struct PathState {
-    explicit PathState(const Vec3f& camera) : from(camera) {}
+    explicit PathState(const Vec3f& camera) : receiver{camera} {}
 
     Color throughput{1.f};
     // What refraction has scaled radiance by, undone: throughput * eta_scale is what fraction of the light, as power,
     // is left, and what roulette looks at. Otherwise a path inside glass would end too early, for its throughput is
     // 1/eta^2 there until it leaves (pbrt 4th ed., section 13.4).
     float eta_scale = 1.f;
-    Vec3f from;           // the camera or the last vertex
-    float pdf = 0.f;      // of the last direction, unless discrete
+    LightReceiver receiver; // the camera or the last vertex
+    float pdf = 0.f;        // of the last direction, unless discrete
     bool discrete = true; // nothing but following the path finds what it sees: camera rays and delta bounces
 
-    void extend(const SurfacePoint& vertex, const BsdfSample& next)
+    void extend(const Vertex& vertex, const BsdfSample& next)
     {
         throughput *= next.weight;
         eta_scale *= sqr(next.eta);
-        from = vertex.position;
+        receiver = vertex.receiver();
         pdf = next.pdf;
         discrete = next.is_delta();
     }
@@ -52,7 +52,7 @@ Color emitted(const Technique& technique, Tracer& tracer, const PathState& path,
               const std::optional<SurfacePoint>& hit)
 {
     if ((hit && !hit->emitter) || !technique.counts_emission(path)) return Color(0.f);
-    const EmitterValue light = tracer.scene().emission(path.from, ray.direction, hit ? &*hit : nullptr);
+    const EmitterValue light = tracer.scene().emission(path.receiver, ray.direction, hit ? &*hit : nullptr);
     if (light.radiance.is_black()) return Color(0.f);
     const float weight = path.discrete ? 1.f : technique.emission_weight(path, light.pdf);
     const Color contribution = path.throughput * light.radiance * weight;
@@ -104,7 +104,7 @@ Color trace_path(const Technique& technique, Tracer& tracer, Sampler& sampler, R
         const std::optional<BsdfSample> next = technique.scatter(sampler, vertex);
         result += scattered(technique, tracer, sampler, path, vertex);
         if (!next) return end("the surface absorbs the path"), result;
-        path.extend(*hit, *next);
+        path.extend(vertex, *next);
         if (tracer.logging()) log_scatter(tracer, path, *next);
         if (path.throughput.is_black()) return end("nothing is left of the path's throughput"), result;
 

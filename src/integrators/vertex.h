@@ -4,6 +4,7 @@
 // A surface point of a path together with the direction that the path came from: where BSDFs are asked.
 
 #include "plumb/bsdf.h"
+#include "plumb/emitter.h"
 
 namespace plumb {
 
@@ -15,14 +16,14 @@ namespace plumb {
 class Vertex {
 public:
     Vertex(const SurfacePoint& at, const Vec3f& ray_direction)
-        : at_(at), wi_(at.shading.to_local(-ray_direction))
+        : at_(at), lobes_(at.bsdf->lobes()), wi_(at.shading.to_local(-ray_direction))
     {}
 
     const SurfacePoint& at() const { return at_; }
-    bool has_discrete_lobes() const { return lobes().has_any(delta_lobes); }
-    bool has_transmission() const { return lobes().has_any(transmission_lobes); }
+    bool has_discrete_lobes() const { return lobes_.has_any(delta_lobes); }
+    bool has_transmission() const { return lobes_.has_any(transmission_lobes); }
     // Whether evaluate() can be anything but black.
-    bool has_smooth_lobes() const { return (lobes().bits & ~delta_lobes.bits) != 0; }
+    bool has_smooth_lobes() const { return (lobes_.bits & ~delta_lobes.bits) != 0; }
 
     BsdfValue evaluate(const Vec3f& wo_world) const { return evaluate_local(at_.shading.to_local(wo_world)); }
     BsdfValue evaluate_local(const Vec3f& wo) const { return at_.bsdf->evaluate(at_, wi_, wo); }
@@ -32,12 +33,18 @@ public:
         return at_.bsdf->sample(at_, wi_, u_lobe, u);
     }
 
+    // A surface that does not transmit is black, from where it is seen, for light from behind its shading normal.
+    LightReceiver receiver() const
+    {
+        if (has_transmission()) return {at_.position};
+        return {at_.position, wi_.z < 0.f ? -at_.shading.n : at_.shading.n};
+    }
+
     Vec3f to_world(const BsdfSample& sampled) const { return at_.shading.to_world(sampled.wo); }
 
 private:
-    Lobes lobes() const { return at_.bsdf->lobes(); }
-
     const SurfacePoint& at_;
+    Lobes lobes_;
     Vec3f wi_;
 };
 

@@ -71,50 +71,51 @@ bool Scene::occluded(const Ray& ray) const
     return accel_->occluded(ray);
 }
 
-std::optional<EmitterSample> Scene::sample_emitter(const Vec3f& from, double u_choice, const Vec2f& u,
-                                                   Measure measure) const
+std::optional<EmitterSample> Scene::sample_emitter(const LightReceiver& receiver, double u_choice,
+                                                   const Vec2f& u, Measure measure) const
 {
     if (!choice_.can_sample()) return std::nullopt;
     const DiscreteDistribution::Choice choice = choice_.sample(u_choice);
-    return sample_chosen(*emitters_[choice.index], choice, from, u, measure);
+    return sample_chosen(*emitters_[choice.index], choice, receiver, u, measure);
 }
 
-std::optional<EmitterSample> Scene::sample_delta_emitter(const Vec3f& from, double u_choice,
+std::optional<EmitterSample> Scene::sample_delta_emitter(const LightReceiver& receiver, double u_choice,
                                                          const Vec2f& u) const
 {
     if (!delta_choice_.can_sample()) return std::nullopt;
     const DiscreteDistribution::Choice choice = delta_choice_.sample(u_choice);
-    return sample_chosen(*emitters_[delta_[choice.index]], choice, from, u, Measure::best);
+    return sample_chosen(*emitters_[delta_[choice.index]], choice, receiver, u, Measure::best);
 }
 
 std::optional<EmitterSample> Scene::sample_chosen(const Emitter& emitter,
                                                   const DiscreteDistribution::Choice& choice,
-                                                  const Vec3f& from, const Vec2f& u, Measure measure) const
+                                                  const LightReceiver& receiver, const Vec2f& u,
+                                                  Measure measure) const
 {
-    std::optional<EmitterSample> light = emitter.sample(from, choice.u, u, measure);
+    std::optional<EmitterSample> light = emitter.sample(receiver.position, choice.u, u, measure);
     if (!light) return light;
     light->emitter = &emitter;
     light->pdf *= choice.probability;
     // Infinite emitters overlap: the direction brings light from all of them, and any could have chosen it.
     if (infinite_.size() > 1 && emitter.is_infinite() && !emitter.is_delta()) {
-        const EmitterValue all = emission(from, light->wi, nullptr, measure);
+        const EmitterValue all = emission(receiver, light->wi, nullptr, measure);
         light->radiance = all.radiance;
         light->pdf = all.pdf;
     }
     return light;
 }
 
-EmitterValue Scene::emission(const Vec3f& from, const Vec3f& wi, const SurfacePoint* hit,
+EmitterValue Scene::emission(const LightReceiver& receiver, const Vec3f& wi, const SurfacePoint* hit,
                              Measure measure) const
 {
     if (hit != nullptr) {
         if (hit->emitter == nullptr) return {};
-        const EmitterValue value = hit->emitter->evaluate(from, wi, hit, measure);
+        const EmitterValue value = hit->emitter->evaluate(receiver.position, wi, hit, measure);
         return {value.radiance, value.pdf * choice_.probability(hit->emitter_index)};
     }
     EmitterValue sum;
     for (const std::uint32_t index : infinite_) {
-        const EmitterValue value = emitters_[index]->evaluate(from, wi, nullptr, measure);
+        const EmitterValue value = emitters_[index]->evaluate(receiver.position, wi, nullptr, measure);
         sum.radiance += value.radiance;
         sum.pdf += value.pdf * choice_.probability(index);
     }

@@ -49,7 +49,7 @@ TEST_CASE("emitters are chosen in proportion to their power", "[statistical][sce
             for (std::uint64_t i = 0; i < samples; ++i) {
                 const double u_choice = random.next_double();
                 // From inside the floor's hemisphere every lamp can be seen, so that no sample is refused.
-                const auto light = scene.sample_emitter({0.f, 0.5f, 0.f}, u_choice, random.next_2d());
+                const auto light = scene.sample_emitter({Vec3f(0.f, 0.5f, 0.f)}, u_choice, random.next_2d());
                 if (light) ++chosen[light->emitter];
             }
             double statistic = 0.0;
@@ -73,11 +73,11 @@ TEST_CASE("what a ray sees has the density with which it would have been sampled
         const Vec3f from(static_cast<float>(random.between(-1, 1)), static_cast<float>(random.between(0, 1)),
                          static_cast<float>(random.between(-1, 1)));
         const double u_choice = random.next_double();
-        const auto light = scene.sample_emitter(from, u_choice, random.next_2d());
+        const auto light = scene.sample_emitter({from}, u_choice, random.next_2d());
         if (!light || light->is_delta) continue;
         const auto hit = scene.intersect({from, light->wi});
         if (hit && hit->emitter != light->emitter) continue; // something is in between
-        const EmitterValue seen = scene.emission(from, light->wi, hit ? &*hit : nullptr);
+        const EmitterValue seen = scene.emission({from}, light->wi, hit ? &*hit : nullptr);
         CHECK(seen.pdf == Approx(light->pdf).epsilon(2e-3));
         CHECK(seen.radiance.r == Approx(light->radiance.r).epsilon(2e-3));
         ++compared;

@@ -74,18 +74,21 @@ TEST_CASE("roulette looks at the light that is left, not at refraction's scaling
     limits.roulette_depth = 2;
     const PathEstimator estimator(PathEstimator::Finder::path, limits);
     PathState path(Vec3f(0.f));
+    const std::unique_ptr<Bsdf> bsdf = glass()();
     SurfacePoint point;
     point.position = Vec3f(0.f);
+    point.bsdf = bsdf.get();
+    const Vertex vertex(point, Vec3f(0, 0, -1));
     BsdfSample refraction{Vec3f(0, 0, -1), Color(1.f / 2.25f), 1.f, Lobe::delta_transmission, 1.5f};
-    path.extend(point, refraction);
+    path.extend(vertex, refraction);
     CHECK(estimator.survival(path, 1) == 1.f);
     CHECK(estimator.survival(path, 2) == 1.f);
     CHECK(estimator.survival(path, 3) == 0.95f);
     BsdfSample absorption{Vec3f(0, 0, 1), Color(0.2f, 0.4f, 0.1f), 1.f};
-    path.extend(point, absorption);
+    path.extend(vertex, absorption);
     CHECK(estimator.survival(path, 3) == Approx(0.4f));
     BsdfSample way_out{Vec3f(0, 0, 1), Color(2.25f), 1.f, Lobe::delta_transmission, 1.f / 1.5f};
-    path.extend(point, way_out);
+    path.extend(vertex, way_out);
     CHECK(estimator.survival(path, 3) == Approx(0.4f));
 }
 
