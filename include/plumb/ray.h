@@ -39,15 +39,21 @@ inline float next_float(float x, bool up)
     return std::bit_cast<float>((x > 0.f) == up ? bits + 1 : bits - 1);
 }
 
-// Moves p off its surface to the side that `towards` points to, so that neither the rounding of p nor the error of
-// a ray-triangle test with p as origin finds that surface again. error: per axis, how far p may be from the true
-// surface. As in pbrt 4th ed., section 6.8.6, the error box is left along the normal; here the box has been widened
-// by what rounding the result can take back. The smallest number moves points with the coordinate 0 as well.
-inline Vec3f offset_origin(const Vec3f& p, const Vec3f& error, const Vec3f& normal, const Vec3f& towards)
+// How far along its surface's unit normal a point must be moved, so that neither its rounding nor the error of a
+// ray-triangle test with it as origin finds that surface again. error: per axis, how far the point may be from the
+// true surface; largest: per axis, the largest |coordinate| that it can have. As in pbrt 4th ed., section 6.8.6, the
+// error box is left along the normal; here the box has been widened by what rounding the moved point can take back.
+// The smallest number moves points with the coordinate 0 as well.
+inline float clearance(const Vec3f& error, const Vec3f& largest, const Vec3f& normal)
 {
-    const Vec3f box = error + abs(p) * (2.f * unit_roundoff);
-    const float distance = dot(abs(normal), box) + std::numeric_limits<float>::min();
-    return p + normal * std::copysign(distance, dot(towards, normal));
+    const Vec3f box = error + largest * (2.f * unit_roundoff);
+    return dot(abs(normal), box) + std::numeric_limits<float>::min();
+}
+
+// Moves p off its surface to the side that `towards` points to.
+inline Vec3f offset_origin(const Vec3f& p, float clearance, const Vec3f& normal, const Vec3f& towards)
+{
+    return p + normal * std::copysign(clearance, dot(towards, normal));
 }
 
 } // namespace plumb

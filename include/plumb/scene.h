@@ -44,8 +44,8 @@ public:
     {
         if (light.distance == infinity) return from.spawn_ray(light.wi);
         // Both ends are moved off their surfaces towards each other; what lies strictly between them is in the way.
-        const Vec3f origin = offset_origin(from.position, from.error, from.geometric_normal, light.wi);
-        const Vec3f target = offset_origin(light.position, light.error, light.normal, -light.wi);
+        const Vec3f origin = offset_origin(from.position, from.clearance, from.geometric_normal, light.wi);
+        const Vec3f target = light.position + light.normal * light.clearance;
         return {origin, target - origin, 0.f, one_minus_epsilon};
     }
 

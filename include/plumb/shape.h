@@ -25,8 +25,8 @@ public:
 // A point chosen on a shape. pdf is per unit area or per unit solid angle, as the function says.
 struct ShapeSample {
     Vec3f position;
-    Vec3f error;  // as in SurfacePoint
-    Vec3f normal; // geometric, unit length, front side
+    Vec3f normal;    // geometric, unit length, front side
+    float clearance; // as in SurfacePoint
     Vec2f uv;
     float pdf;
 };

@@ -14,11 +14,11 @@ class Emitter;
 
 // Conventions. World space. geometric_normal has unit length and is the true normal of the surface, on the side
 // that the shape calls its front (the side of the vertex normals where a mesh has them); shading.n is interpolated.
-// `error` bounds, per axis, how far position lies from the surface that Embree traces.
+// clearance: how far along the geometric normal a ray must start, so as not to meet the same surface again (ray.h).
 struct SurfacePoint {
     Vec3f position;
-    Vec3f error;
     Vec3f geometric_normal;
+    float clearance = 0.f;
     Frame shading;
     Vec2f uv;
     std::uint32_t primitive = 0;
@@ -30,7 +30,7 @@ struct SurfacePoint {
     // A ray leaving in `direction` (any length), started off the surface on that side.
     Ray spawn_ray(const Vec3f& direction) const
     {
-        return {offset_origin(position, error, geometric_normal, direction), direction, 0.f, infinity};
+        return {offset_origin(position, clearance, geometric_normal, direction), direction, 0.f, infinity};
     }
 };
 

@@ -107,7 +107,7 @@ private:
             const Vec2f u_direction = sampler_->next_2d();
             const ShapeSample point = lamp.shape->sample_area(u_select, u);
             const Vec3f direction = Frame(point.normal).to_world(square_to_cosine_hemisphere(u_direction));
-            const Vec3f origin = offset_origin(point.position, point.error, point.normal, direction);
+            const Vec3f origin = offset_origin(point.position, point.clearance, point.normal, direction);
             const auto hit = scene_.intersect({origin, direction});
             if (!hit) return std::nullopt;
             reach = std::max(reach, length(hit->position - origin));

@@ -77,8 +77,8 @@ private:
             light.wi = Vec3f(towards * (1.0 / distance));
             light.distance = static_cast<float>(distance);
             light.position = point.position;
-            light.error = point.error;
             light.normal = point.normal;
+            light.clearance = point.clearance;
             light.radiance = radiance_->color(point.uv) * scale_;
             // Per unit solid angle = per unit area * distance^2 / cosine.
             light.pdf = measure == Measure::area

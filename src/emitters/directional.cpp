@@ -41,8 +41,6 @@ public:
         sample.wi = direction_;
         sample.distance = infinity;
         sample.position = Vec3f(0.f);
-        sample.error = Vec3f(0.f);
-        sample.normal = Vec3f(0.f);
         sample.radiance = irradiance_;
         sample.pdf = 1.f;
         sample.is_delta = true;

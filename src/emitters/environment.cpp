@@ -62,8 +62,12 @@ public:
         const Vec3f wi = bitmap_ ? sample_direction(u_select, u) : square_to_uniform_sphere(u);
         const EmitterValue value = evaluate(from, wi, nullptr, measure);
         if (!(value.pdf > 0.f)) return std::nullopt; // black everywhere
-        const Vec3f none(0.f);
-        return EmitterSample{wi, infinity, none, none, none, value.radiance, value.pdf};
+        EmitterSample light;
+        light.wi = wi;
+        light.distance = infinity;
+        light.radiance = value.radiance;
+        light.pdf = value.pdf;
+        return light;
     }
 
     EmitterValue evaluate(const Vec3f&, const Vec3f& wi, const SurfacePoint* at, Measure) const override

@@ -39,8 +39,6 @@ public:
         sample.wi = Vec3f(towards / distance);
         sample.distance = static_cast<float>(distance);
         sample.position = position_;
-        sample.error = Vec3f(0.f);
-        sample.normal = Vec3f(0.f);
         // In double: at a distance of 1e-20, 1 / distance^2 is no float, but its product with the intensity may be.
         sample.radiance =
             Color(static_cast<float>(intensity_.r * falloff), static_cast<float>(intensity_.g * falloff),

@@ -23,8 +23,8 @@ SurfacePoint surface_of(const Scene& scene, const EmitterSample& light)
 {
     SurfacePoint point;
     point.position = light.position;
-    point.error = light.error;
     point.geometric_normal = light.normal;
+    point.clearance = light.clearance;
     point.shading = Frame(light.normal);
     point.emitter = light.emitter;
     const auto& emitters = scene.emitters();

@@ -4,6 +4,7 @@
 
 #include "scene/accel.h"
 
+#include "core/elided.h"
 #include "plumb/error.h"
 #include "plumb/intersection.h"
 
@@ -83,17 +84,19 @@ void throw_device_error(const char* doing)
     throw Error(fmt::format("Embree failed while {}: {}", doing, message));
 }
 
+// Four floats that are stored as one: Embree loads them so, and after single stores it would have to wait.
+void store(float* to, float x, float y, float z, float w)
+{
+    using Lanes [[gnu::vector_size(16)]] = float;
+    const Lanes lanes{x, y, z, w};
+    std::memcpy(to, &lanes, sizeof(lanes));
+}
+
 RTCRay embree_ray(const Ray& ray)
 {
     RTCRay r;
-    r.org_x = ray.origin.x;
-    r.org_y = ray.origin.y;
-    r.org_z = ray.origin.z;
-    r.tnear = std::max(ray.t_min, smallest_t);
-    r.dir_x = ray.direction.x;
-    r.dir_y = ray.direction.y;
-    r.dir_z = ray.direction.z;
-    r.time = 0.f;
+    store(&r.org_x, ray.origin.x, ray.origin.y, ray.origin.z, std::max(ray.t_min, smallest_t));
+    store(&r.dir_x, ray.direction.x, ray.direction.y, ray.direction.z, 0.f); // and the time
     r.tfar = ray.t_max;
     r.mask = ~0u;
     r.id = 0;
@@ -241,7 +244,7 @@ Scene::Accel::~Accel()
     rtcReleaseDevice(device_);
 }
 
-Scene::Accel::Hit Scene::Accel::intersect(const Ray& ray) const
+inline Scene::Accel::Hit Scene::Accel::intersect(const Ray& ray) const
 {
     RTCRayHit ray_hit;
     ray_hit.ray = embree_ray(ray);
@@ -258,7 +261,7 @@ Scene::Accel::Hit Scene::Accel::intersect(const Ray& ray) const
     return {object_of_geometry_[ray_hit.hit.geomID], ray_hit.hit.primID};
 }
 
-bool Scene::Accel::occluded(const Ray& ray) const
+inline bool Scene::Accel::occluded(const Ray& ray) const
 {
     RTCRay r = embree_ray(ray);
 #if PLUMB_EMBREE_MAJOR >= 4
@@ -269,6 +272,29 @@ bool Scene::Accel::occluded(const Ray& ray) const
     rtcOccluded1(scene_, &context, &r);
 #endif
     return r.tfar < 0.f;
+}
+
+// Here, so that the way of a ray to Embree is one function.
+std::optional<SurfacePoint> Scene::intersect(const Ray& ray) const
+{
+    const Accel::Hit hit = accel_->intersect(ray);
+    if (!hit) return std::nullopt;
+    const auto surface_point = [&] {
+        const SceneObject& object = objects_[hit.object];
+        SurfacePoint point = object.shape->surface_at(ray, hit.primitive);
+        point.primitive = hit.primitive;
+        point.shape = object.shape.get();
+        point.bsdf = object.bsdf.get();
+        point.emitter = object.emitter.get();
+        point.emitter_index = emitter_of_object_[hit.object];
+        return point;
+    };
+    return in_optional(surface_point);
+}
+
+bool Scene::occluded(const Ray& ray) const
+{
+    return accel_->occluded(ray);
 }
 
 std::string Scene::Accel::version() const

@@ -2,7 +2,6 @@
 
 #include "plumb/scene.h"
 
-#include "core/elided.h"
 #include "scene/accel.h"
 
 namespace plumb {
@@ -48,28 +47,6 @@ Scene::Scene(std::vector<SceneObject> objects, std::vector<std::unique_ptr<Emitt
 Scene::Scene(Scene&&) noexcept = default;
 Scene& Scene::operator=(Scene&&) noexcept = default;
 Scene::~Scene() = default;
-
-std::optional<SurfacePoint> Scene::intersect(const Ray& ray) const
-{
-    const Accel::Hit hit = accel_->intersect(ray);
-    if (!hit) return std::nullopt;
-    const auto surface_point = [&] {
-        const SceneObject& object = objects_[hit.object];
-        SurfacePoint point = object.shape->surface_at(ray, hit.primitive);
-        point.primitive = hit.primitive;
-        point.shape = object.shape.get();
-        point.bsdf = object.bsdf.get();
-        point.emitter = object.emitter.get();
-        point.emitter_index = emitter_of_object_[hit.object];
-        return point;
-    };
-    return in_optional(surface_point);
-}
-
-bool Scene::occluded(const Ray& ray) const
-{
-    return accel_->occluded(ray);
-}
 
 std::optional<EmitterSample> Scene::sample_emitter(const LightReceiver& receiver, double u_choice,
                                                    const Vec2f& u, Measure measure) const

@@ -68,10 +68,8 @@ public:
         normal_ = Vec3f(crossed / area);
         if (dot(normal_, to_world.normal(unit_normal)) < 0.f) normal_ = -normal_;
         shading_ = Frame(normal_);
-        const Vec3f error1 = triangle_error(triangle(0), area);
-        const Vec3f error2 = triangle_error(triangle(1), area);
-        error_ =
-            Vec3f(std::max(error1.x, error2.x), std::max(error1.y, error2.y), std::max(error1.z, error2.z));
+        clearance_ = std::max(triangle_clearance(triangle(0), normal_, area),
+                              triangle_clearance(triangle(1), normal_, area));
     }
 
     void add_to(AccelBuilder& builder) const override { builder.add_triangles(corners_, triangles_); }
@@ -85,7 +83,7 @@ public:
         const float both = std::min(static_cast<float>(b.u + b.v), 1.f);
 
         const Vec2f uv(select(primitive == 0, both, first), select(primitive == 0, second, both));
-        return {triangle_point(edges, b), error_, normal_, shading_, uv, primitive};
+        return {triangle_point(edges, b), normal_, clearance_, shading_, uv, primitive};
     }
 
     ShapeSample sample_area(double /*u_select*/, const Vec2f& u) const override
@@ -96,7 +94,7 @@ public:
         const double difference = std::abs(x - y);
         const double smaller = (x + y - difference) * 0.5; // exactly, and without a jump
         const TriangleEdges& half = halves_[static_cast<std::size_t>(y > x)];
-        return {triangle_point(half, {difference, smaller}), error_, normal_, u, area_pdf_};
+        return {triangle_point(half, {difference, smaller}), normal_, clearance_, u, area_pdf_};
     }
 
     float area() const override { return area_; }
@@ -129,7 +127,7 @@ private:
     std::array<TriangleEdges, 2> edges_;  // of triangles_
     std::array<TriangleEdges, 2> halves_; // below and above the diagonal, which comes last in both
     Vec3f normal_{0.f, 0.f, 1.f};
-    Vec3f error_{0.f};
+    float clearance_ = 0.f;
     Frame shading_;
     float area_ = 1.f;
     float area_pdf_ = 1.f;

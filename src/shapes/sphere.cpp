@@ -66,7 +66,7 @@ public:
         SurfacePoint at;
         at.geometric_normal = Vec3f(normal);
         at.position = position(normal);
-        at.error = error(at.position);
+        at.clearance = clearance_at(at.position, at.geometric_normal);
         at.shading = Frame(at.geometric_normal);
         at.uv = uv(at.geometric_normal);
         at.primitive = primitive;
@@ -152,7 +152,11 @@ private:
 
     // The sphere is met in double precision, so that only the rounding of the position counts; and that of the
     // normal, which is of the order of the radius.
-    Vec3f error(const Vec3f& p) const { return (abs(p) * 2.f + Vec3f(radius_)) * unit_roundoff; }
+    float clearance_at(const Vec3f& p, const Vec3f& normal) const
+    {
+        const Vec3f error = (abs(p) * 2.f + Vec3f(radius_)) * unit_roundoff;
+        return clearance(error, abs(p), normal);
+    }
 
     Vec2f uv(const Vec3f& normal) const
     {
@@ -166,7 +170,7 @@ private:
     {
         const Vec3f p = position(normal);
         const Vec3f n(normal);
-        return {p, error(p), n, uv(n), pdf};
+        return {p, n, clearance_at(p, n), uv(n), pdf};
     }
 
     Vec3f center_{0.f};

@@ -27,14 +27,14 @@ inline Vec3f triangle_point(const TriangleEdges& t, const Barycentric& b)
     return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
 }
 
-// SurfacePoint::error of a point of the triangle. normal_length: twice the area.
+// SurfacePoint::clearance of any point of the triangle. normal: of unit length; normal_length: twice the area.
 //
 // Embree subtracts the ray's origin from the corners and takes the normal from products of their differences, all
 // in single precision. On each axis that errs by a few roundings of the coordinates; and in slivers the normal
 // itself errs, by an angle that moves the plane by the product of the three extents divided by twice the area.
 // Both vanish in a plane perpendicular to an axis, as they should. The factors were found by experiment: see
 // tests/statistical/self_intersection_test.cpp.
-inline Vec3f triangle_error(const TriangleCorners& t, double normal_length)
+inline float triangle_clearance(const TriangleCorners& t, const Vec3f& normal, double normal_length)
 {
     constexpr float coordinate_factor = 4.f * unit_roundoff;
     constexpr double sliver_factor = 4.0 * unit_roundoff;
@@ -47,9 +47,9 @@ inline Vec3f triangle_error(const TriangleCorners& t, double normal_length)
     const double volume =
         extent(t.p0.x, t.p1.x, t.p2.x) * extent(t.p0.y, t.p1.y, t.p2.y) * extent(t.p0.z, t.p1.z, t.p2.z);
     const auto tilt = normal_length > 0.0 ? static_cast<float>(sliver_factor * volume / normal_length) : 0.f;
-    return {coordinate_factor * largest(t.p0.x, t.p1.x, t.p2.x) + tilt,
-            coordinate_factor * largest(t.p0.y, t.p1.y, t.p2.y) + tilt,
-            coordinate_factor * largest(t.p0.z, t.p1.z, t.p2.z) + tilt};
+    const Vec3f corner(largest(t.p0.x, t.p1.x, t.p2.x), largest(t.p0.y, t.p1.y, t.p2.y),
+                       largest(t.p0.z, t.p1.z, t.p2.z));
+    return clearance(corner * coordinate_factor + Vec3f(tilt), corner, normal);
 }
 
 } // namespace plumb

@@ -67,9 +67,8 @@ public:
                                            ? front_normal(primitive, normal * (1.0 / normal_length))
                                            : normalize(-ray.direction);
         const Frame shading(shading_normal(primitive, b, geometric_normal));
-        return {triangle_point(edges, b), triangle_error(t, normal_length),
-                geometric_normal,         shading,
-                uv(primitive, b),         primitive};
+        const float clearance = triangle_clearance(t, geometric_normal, normal_length);
+        return {triangle_point(edges, b), geometric_normal, clearance, shading, uv(primitive, b), primitive};
     }
 
     ShapeSample sample_area(double u_select, const Vec2f& u) const override
@@ -81,8 +80,9 @@ public:
         const TriangleEdges edges = t.edges();
         const Vec3d normal = triangle_cross(edges);
         const double normal_length = length(normal);
-        return {triangle_point(edges, b), triangle_error(t, normal_length),
-                front_normal(primitive, normal * (1.0 / normal_length)), uv(primitive, b), 1.f / area_};
+        const Vec3f front = front_normal(primitive, normal * (1.0 / normal_length));
+        return {triangle_point(edges, b), front, triangle_clearance(t, front, normal_length),
+                uv(primitive, b), 1.f / area_};
     }
 
     float area() const override { return area_; }

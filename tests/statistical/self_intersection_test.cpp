@@ -94,8 +94,8 @@ SurfacePoint as_surface_point(const ShapeSample& sample)
 {
     SurfacePoint at;
     at.position = sample.position;
-    at.error = sample.error;
     at.geometric_normal = sample.normal;
+    at.clearance = sample.clearance;
     return at;
 }
 
@@ -123,7 +123,7 @@ void leave(const Scene& scene, double size, int rays, TestRandom& random, Count&
         if (dot(direction, at.geometric_normal) == 0.f) continue;
         ++count.rays;
         if (scene.occluded(at.spawn_ray(direction))) ++count.hits;
-        at.error = Vec3f(0.f);
+        at.clearance = 0.f;
         if (scene.occluded(at.spawn_ray(direction))) ++count.hits_without_offset;
     }
 }

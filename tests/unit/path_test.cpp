@@ -40,7 +40,7 @@ TEST_CASE("a tilted shading normal decides what is reflected, and the geometry w
     const auto bsdf = diffuse(0.5f)();
     SurfacePoint point;
     point.position = Vec3f(0.f);
-    point.error = Vec3f(1e-6f);
+    point.clearance = 1e-6f;
     point.geometric_normal = Vec3f(0, 0, 1);
     point.shading = Frame(normalize(Vec3f(1, 0, 1)));
     point.bsdf = bsdf.get();
