@@ -28,15 +28,15 @@ struct EmitterValue {
     float pdf = 0.f; // per unit solid angle, as sample() in the same measure would have chosen this direction
 };
 
-struct EmitterSample {
-    Vec3f wi{0.f};        // unit vector from the receiver towards the light, world space
-    float distance = 0.f; // infinity for directional and environment light
-    Vec3f position{0.f};  // the chosen point (finite emitters)
-    Vec3f normal{0.f};    // geometric normal at position, on the side of the receiver; zero without a surface
+struct alignas(16) EmitterSample {
+    Vec3f wi{0.f};         // unit vector from the receiver towards the light, world space
+    float distance = 0.f;  // infinity for directional and environment light
+    Vec3f position{0.f};   // the chosen point (finite emitters)
     float clearance = 0.f; // as in SurfacePoint; zero for lights without a surface
-    Color radiance;        // arriving if nothing is in between; for point lights intensity / distance^2
-    float pdf = 0.f;       // per unit solid angle; 1 where is_delta
-    bool is_delta = false; // no other technique can find this light
+    Vec3f normal{0.f}; // geometric normal at position, on the side of the receiver; zero without a surface
+    float pdf = 0.f;   // per unit solid angle; 1 where is_delta
+    Color radiance;    // arriving if nothing is in between; for point lights intensity / distance^2
+    bool is_delta = false;            // no other technique can find this light
     const Emitter* emitter = nullptr; // set by Scene, which chose it
 };
 

@@ -12,10 +12,17 @@
 
 namespace plumb {
 
-struct Ray {
+// A vector and a number are stored together, here and in what functions return: what is written as four floats is read as
+// four floats, or the processor would have to wait.
+struct alignas(16) Ray {
+    Ray() = default;
+    Ray(const Vec3f& from, const Vec3f& along, float after = 0.f, float before = infinity)
+        : origin(from), t_min(after), direction(along), t_max(before)
+    {}
+
     Vec3f origin;
-    Vec3f direction;
     float t_min = 0.f;
+    Vec3f direction;
     float t_max = infinity;
 
     Vec3f at(float t) const { return origin + direction * t; }

@@ -23,12 +23,12 @@ public:
 };
 
 // A point chosen on a shape. pdf is per unit area or per unit solid angle, as the function says.
-struct ShapeSample {
+struct alignas(16) ShapeSample {
     Vec3f position;
-    Vec3f normal;    // geometric, unit length, front side
     float clearance; // as in SurfacePoint
-    Vec2f uv;
+    Vec3f normal;    // geometric, unit length, front side
     float pdf;
+    Vec2f uv;
 };
 
 // Conventions. World space: toWorld is applied when a shape is built. The front side is the one that normals point

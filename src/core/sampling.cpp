@@ -14,9 +14,9 @@ constexpr float quarter_pi = pi / 4.f;
 
 // A point of the unit disk; the radius is not squeezed through x and y, so that 1 - radius keeps its digits.
 struct DiskPoint {
-    float radius; // in [0, 1]
     float x;
     float y;
+    float radius; // in [0, 1]
 };
 
 DiskPoint concentric_disk(const Vec2f& u)
@@ -32,7 +32,7 @@ DiskPoint concentric_disk(const Vec2f& u)
         sin_cos_in_first_octant(quarter_pi * (select(wide, b, a) / radius)); // from the nearer axis
     const float along = radius * angle.cos;
     const float across = radius * angle.sin;
-    return {std::abs(radius), select(wide, along, across), select(wide, across, along)};
+    return {select(wide, along, across), select(wide, across, along), std::abs(radius)};
 }
 
 Vec3f direction(float sine, float cosine, float u)

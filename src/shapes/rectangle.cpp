@@ -83,7 +83,7 @@ public:
         const float both = std::min(static_cast<float>(b.u + b.v), 1.f);
 
         const Vec2f uv(select(primitive == 0, both, first), select(primitive == 0, second, both));
-        return {triangle_point(edges, b), normal_, clearance_, shading_, uv, primitive};
+        return {triangle_point(edges, b), clearance_, normal_, primitive, shading_, 0, uv};
     }
 
     ShapeSample sample_area(double /*u_select*/, const Vec2f& u) const override
@@ -94,7 +94,7 @@ public:
         const double difference = std::abs(x - y);
         const double smaller = (x + y - difference) * 0.5; // exactly, and without a jump
         const TriangleEdges& half = halves_[static_cast<std::size_t>(y > x)];
-        return {triangle_point(half, {difference, smaller}), normal_, clearance_, u, area_pdf_};
+        return {triangle_point(half, {difference, smaller}), clearance_, normal_, area_pdf_, u};
     }
 
     float area() const override { return area_; }

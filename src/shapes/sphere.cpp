@@ -170,7 +170,7 @@ private:
     {
         const Vec3f p = position(normal);
         const Vec3f n(normal);
-        return {p, n, clearance_at(p, n), uv(n), pdf};
+        return {p, clearance_at(p, n), n, pdf, uv(n)};
     }
 
     Vec3f center_{0.f};

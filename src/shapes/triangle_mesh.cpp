@@ -68,7 +68,8 @@ public:
                                            : normalize(-ray.direction);
         const Frame shading(shading_normal(primitive, b, geometric_normal));
         const float clearance = triangle_clearance(t, geometric_normal, normal_length);
-        return {triangle_point(edges, b), geometric_normal, clearance, shading, uv(primitive, b), primitive};
+        return {triangle_point(edges, b), clearance, geometric_normal, primitive, shading, 0,
+                uv(primitive, b)};
     }
 
     ShapeSample sample_area(double u_select, const Vec2f& u) const override
@@ -81,8 +82,8 @@ public:
         const Vec3d normal = triangle_cross(edges);
         const double normal_length = length(normal);
         const Vec3f front = front_normal(primitive, normal * (1.0 / normal_length));
-        return {triangle_point(edges, b), front, triangle_clearance(t, front, normal_length),
-                uv(primitive, b), 1.f / area_};
+        return {triangle_point(edges, b), triangle_clearance(t, front, normal_length), front, 1.f / area_,
+                uv(primitive, b)};
     }
 
     float area() const override { return area_; }
