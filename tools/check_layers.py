@@ -56,8 +56,8 @@ FOLDERS = {
 # Library: what its includes look like, and the only files that have them (patterns as in pathlib's match).
 DOORS = {
     "Embree": (r"embree[34]?/", ["src/scene/accel*.cpp"]),
-    "OpenImageIO": (r"OpenImageIO/", ["src/io/image*"]),
-    "OpenEXR": (r"OpenEXR/|Imf|Iex|IlmThread", ["src/io/image*.cpp"]),
+    "OpenImageIO": (r"OpenImageIO/", ["src/io/oiio/*"]),
+    "OpenEXR": (r"OpenEXR/|Imf|Iex|IlmThread", ["src/io/oiio/*.cpp"]),
     "tinyobjloader": (r"tiny_?obj", ["src/io/obj*.cpp"]),
     "pugixml": (r"pugi", ["src/scene_file/document*.cpp"]),
     "oneTBB": (r"(oneapi/)?tbb(/|\.h)", ["src/render/render*.cpp", "src/core/parallel*.cpp"]),

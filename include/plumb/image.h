@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Pictures in memory and on disk. The pixels live in an OpenImageIO ImageBuf of 32-bit floats; src/io/image.cpp is
-// its only user.
+// Pictures in memory and on disk. The pixels live in an OpenImageIO ImageBuf of 32-bit floats; src/io/oiio is its
+// only user.
 //
 // Conventions. Row 0 is the top row. Values are linear light unless a parameter says otherwise.
 
 #include "plumb/color.h"
 
+#include <atomic>
 #include <filesystem>
+#include <future>
 #include <memory>
 #include <string>
 #include <utility>
@@ -79,5 +81,25 @@ void write_image(const std::filesystem::path& path, const Image& image, float ex
 
 // Throws Error if `path` cannot be written: unknown extension, missing or read-only folder, a folder of that name.
 void check_image_path(const std::filesystem::path& path);
+
+// What pictures take: OpenImageIO and some 260 libraries below it, which take a quarter of a second to load. The first
+// picture that is made, read or written waits for them; one of these loads them meanwhile.
+class ImageLibrary {
+public:
+    ImageLibrary(); // begins, in a thread of its own
+    ImageLibrary(const ImageLibrary&) = delete;
+    ImageLibrary& operator=(const ImageLibrary&) = delete;
+    ~ImageLibrary(); // waits
+
+    bool failed() const { return failed_; } // from any thread
+    void wait();                            // throws Error if it failed
+
+    // What Plumb's own part of it was loaded from; loads it.
+    static std::filesystem::path file();
+
+private:
+    std::atomic<bool> failed_ = false;
+    std::future<void> loading_;
+};
 
 } // namespace plumb

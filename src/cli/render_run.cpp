@@ -7,6 +7,7 @@
 #include "cli/progress.h"
 #include "cli/text.h"
 
+#include "plumb/image.h"
 #include "plumb/stop_rules.h"
 
 #include <atomic>
@@ -157,10 +158,11 @@ private:
     bool take(const SampleSet& wanted)
     {
         const auto pause = [this] {
-            return InterruptGuard::signal() != 0 || (has_checkpoint() && timer_.due());
+            return InterruptGuard::signal() != 0 || images_.failed() || (has_checkpoint() && timer_.due());
         };
         while (!rendering_.take(
             wanted, [this](const Progress& progress) { show(progress); }, pause)) {
+            if (images_.failed()) images_.wait(); // throws: what is rendered could not be written
             if (InterruptGuard::signal() != 0) return false;
             try {
                 save();
@@ -187,6 +189,7 @@ private:
         display_->show(progress);
     }
 
+    ImageLibrary images_; // loads while the first samples are taken
     const Options& options_;
     const Metadata& header_;
     const StopRules rules_;

@@ -18,4 +18,14 @@ std::string one_line(std::string_view text)
     return line;
 }
 
+std::string reason_text(std::string_view text)
+{
+    if (text.find("bad_alloc") != std::string_view::npos) return "not enough memory";
+    std::string reason = one_line(text);
+    if (reason.empty()) return "for no known reason; there may be too little memory";
+    if (reason.find("failed to map segment") != std::string::npos)
+        reason += "; there may be too little memory";
+    return reason;
+}
+
 } // namespace plumb

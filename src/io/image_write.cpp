@@ -3,7 +3,7 @@
 // Writing pictures.
 
 #include "core/lower_case.h"
-#include "io/image_spec.h"
+#include "io/image_module.h"
 #include "io/image_text.h"
 #include "io/temporary_file.h"
 #include "plumb/error.h"
@@ -62,26 +62,6 @@ int channels_written(const Image& image, const Format& format)
     return format.keeps_all ? image.channel_count() : static_cast<int>(first_of_evidence - names.begin());
 }
 
-OIIO::ImageSpec spec_of(const Image& image, const Format& format)
-{
-    const PixelRect& data = image.data_window();
-    const bool is_float = format.encoding == Encoding::linear_float;
-    const int channels = channels_written(image, format);
-    OIIO::ImageSpec spec(data.width, data.height, channels, is_float ? OIIO::TypeFloat : OIIO::TypeUInt8);
-    spec.channelnames.assign(image.channel_names().begin(), image.channel_names().begin() + channels);
-    if (format.keeps_all) {
-        spec.x = data.x;
-        spec.y = data.y;
-        spec.full_width = image.full_width();
-        spec.full_height = image.full_height();
-    }
-    put_metadata(spec, image.metadata);
-    spec.attribute("oiio:ColorSpace", is_float ? "Linear" : "sRGB");
-    if (!format.compression.empty()) spec.attribute("compression", std::string(format.compression));
-    if (format.extension.starts_with(".jp")) spec.attribute("jpeg:subsampling", "4:4:4");
-    return spec;
-}
-
 std::vector<std::uint8_t> encode_srgb(const Image& image, int channels, float exposure)
 {
     const PixelRect& data = image.data_window();
@@ -103,17 +83,25 @@ std::vector<std::uint8_t> encode_srgb(const Image& image, int channels, float ex
 std::vector<unsigned char> encode(const std::string& name, const Image& image, const Format& format,
                                   float exposure)
 {
-    return encode_image(name, spec_of(image, format), [&](OIIO::ImageOutput& output) {
-        if (format.encoding == Encoding::srgb_8bit) {
-            const std::vector<std::uint8_t> bytes =
-                encode_srgb(image, channels_written(image, format), exposure);
-            return output.write_image(OIIO::TypeUInt8, bytes.data());
-        }
-        const PixelRect& data = image.data_window();
-        const auto stride =
-            static_cast<OIIO::stride_t>(sizeof(float)) * image.channel_count(); // from pixel to pixel
-        return output.write_image(OIIO::TypeFloat, image.pixel(data.x, data.y), stride);
-    });
+    const bool is_float = format.encoding == Encoding::linear_float;
+    const int channels = channels_written(image, format);
+    const PixelRect& data = image.data_window();
+    PictureFile file{.name = name, .metadata = image.metadata};
+    file.channels.assign(image.channel_names().begin(), image.channel_names().begin() + channels);
+    file.data = format.keeps_all ? data : PixelRect{0, 0, data.width, data.height};
+    file.full_width = format.keeps_all ? image.full_width() : data.width;
+    file.full_height = format.keeps_all ? image.full_height() : data.height;
+    file.format.emplace_back("oiio:ColorSpace", is_float ? "Linear" : "sRGB");
+    if (!format.compression.empty()) file.format.emplace_back("compression", std::string(format.compression));
+    if (format.extension.starts_with(".jp")) file.format.emplace_back("jpeg:subsampling", "4:4:4");
+    if (is_float) {
+        file.floats = image.pixel(data.x, data.y);
+        file.floats_per_pixel = image.channel_count();
+        return image_module().encode(file);
+    }
+    const std::vector<std::uint8_t> bytes = encode_srgb(image, channels, exposure);
+    file.bytes = bytes.data();
+    return image_module().encode(file);
 }
 
 } // namespace
@@ -144,7 +132,7 @@ void write_image(const std::filesystem::path& path, const Image& image, float ex
     } catch (const std::bad_alloc&) {
         fail(path, "not enough memory");
     } catch (const std::exception& error) { // ours, and whatever OpenImageIO lets through
-        fail(path, one_line(error.what()));
+        fail(path, reason_text(error.what()));
     }
     file.write(std::span<const unsigned char>(bytes));
     file.take_place();

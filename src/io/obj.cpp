@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 
-// Reading OBJ files: this thread checks the text and reads numbers (obj_scan.cpp), another follows with tinyobjloader
-// and reads faces (obj_faces.cpp), and then both are put together (obj_mesh.cpp).
+// Reading OBJ files, in chunks that all threads share: what is in each is counted; then its text is checked and its
+// numbers (obj_scan.cpp) and faces (obj_faces.cpp, tinyobjloader) are read; then all are put together (obj_mesh.cpp).
+// What comes out does not depend on the chunks: errors are those of the first chunk that has one.
 
+#include "core/parallel.h"
+#include "io/obj_characters.h"
 #include "io/obj_mesh.h"
 #include "plumb/error.h"
 #include "plumb/mesh.h"
@@ -11,17 +14,19 @@
 
 #include <cerrno>
 #include <cstring>
-#include <fstream>
-#include <future>
+#include <exception>
+#include <fcntl.h>
 #include <memory>
 #include <new>
+#include <span>
+#include <unistd.h>
+#include <utility>
 
 namespace plumb {
 
 namespace {
 
-// Below this size a thread of its own would take longer than it saves.
-constexpr std::size_t min_parallel_size = std::size_t{1} << 18;
+constexpr std::size_t chunk_size = std::size_t{1} << 20;
 // Above it, the number of lines might not fit an index.
 constexpr std::size_t max_size = std::size_t{8} << 30;
 
@@ -37,6 +42,21 @@ struct Text {
     throw Error(fmt::format("cannot read '{}': {}", path.string(), reason));
 }
 
+constexpr int early_end = -1;
+
+// Returns 0, early_end, or what went wrong.
+int read_bytes(int file, std::size_t offset, std::span<char> bytes)
+{
+    while (!bytes.empty()) {
+        const ssize_t size = pread(file, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+        if (size < 0 && errno == EINTR) continue;
+        if (size <= 0) return size < 0 ? errno : early_end;
+        bytes = bytes.subspan(static_cast<std::size_t>(size));
+        offset += static_cast<std::size_t>(size);
+    }
+    return 0;
+}
+
 // The whole file, and a line end behind it.
 Text read_text(const std::filesystem::path& path)
 {
@@ -48,22 +68,78 @@ Text read_text(const std::filesystem::path& path)
     if (size > max_size) fail(path, "files of more than 8 GiB are not supported");
 
     Text text{std::make_unique_for_overwrite<char[]>(size + 1), size + 1};
-    std::ifstream stream(path, std::ios::binary);
-    if (!stream) fail(path, std::strerror(errno));
-    stream.read(text.bytes.get(), static_cast<std::streamsize>(size));
-    if (static_cast<std::uintmax_t>(stream.gcount()) != size) fail(path, "the file ends early");
+    const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (file < 0) fail(path, std::strerror(errno));
+    std::vector<int> problems((size + chunk_size - 1) / chunk_size, 0);
+    parallel_for(problems.size(), 0, [&](std::size_t i) {
+        const std::size_t begin = i * chunk_size;
+        problems[i] = read_bytes(file, begin, {text.bytes.get() + begin, std::min(chunk_size, size - begin)});
+    });
+    close(file);
+    for (const int problem : problems)
+        if (problem != 0) fail(path, problem == early_end ? "the file ends early" : std::strerror(problem));
     text.bytes[size] = '\n';
     return text;
 }
 
+// Whole lines, but for the byte order mark.
+std::vector<std::string_view> cut_into_chunks(std::string_view text)
+{
+    if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+    std::vector<std::string_view> chunks;
+    while (text.size() > chunk_size) {
+        const auto size = static_cast<std::size_t>(next_line(text.data() + chunk_size) - text.data());
+        chunks.push_back(text.substr(0, size));
+        text.remove_prefix(size);
+    }
+    if (!text.empty()) chunks.push_back(text);
+    return chunks;
+}
+
+ObjCounts operator+(const ObjCounts& a, const ObjCounts& b)
+{
+    return {a.positions + b.positions, a.uvs + b.uvs, a.normals + b.normals};
+}
+
+// Calls read(i) for all chunks, and throws what the first of those that failed has thrown.
+void read_chunks(std::size_t count, const std::function<void(std::size_t)>& read)
+{
+    std::vector<std::exception_ptr> problems(count);
+    parallel_for(count, 0, [&](std::size_t i) {
+        try {
+            read(i);
+        } catch (...) {
+            problems[i] = std::current_exception();
+        }
+    });
+    for (const std::exception_ptr& problem : problems)
+        if (problem) std::rethrow_exception(problem);
+}
+
 MeshData read_mesh(const std::filesystem::path& path)
 {
-    const Text text = read_text(path);
-    ObjFaceQueue queue;
-    const auto policy = text.size < min_parallel_size ? std::launch::deferred : std::launch::async;
-    std::future<ObjFaces> faces = std::async(policy, [&queue] { return read_obj_faces(queue); });
-    ObjAttributes attributes = scan_obj(path.string(), text.view(), queue);
-    return assemble_obj_mesh(std::move(attributes), faces.get());
+    Text text = read_text(path);
+    const ObjFile file{path.string(), text.view()};
+    const std::vector<std::string_view> parts = cut_into_chunks(file.text);
+
+    std::vector<ObjCounts> before(parts.size());
+    parallel_for(parts.size(), 0, [&](std::size_t i) { before[i] = count_obj(parts[i]); });
+    ObjCounts all;
+    for (ObjCounts& count : before) count = std::exchange(all, all + count);
+
+    ObjAttributes found;
+    found.positions.reserve(all.positions + 1); // MeshData
+    found.positions.resize(all.positions);
+    found.uvs.resize(all.uvs);
+    found.normals.resize(all.normals);
+    std::vector<ObjChunk> chunks(parts.size());
+    read_chunks(parts.size(), [&](std::size_t i) { chunks[i] = scan_obj(file, parts[i], before[i], found); });
+    check_obj(file, chunks, all);
+    text.bytes.reset();
+
+    std::vector<ObjFaces> faces;
+    for (ObjChunk& chunk : chunks) faces.push_back(std::move(chunk.faces));
+    return assemble_obj_mesh(std::move(found), std::move(faces));
 }
 
 } // namespace

@@ -4,7 +4,6 @@
 
 #include "io/obj_faces.h"
 
-#include <deque>
 #include <istream>
 #include <streambuf>
 #include <tiny_obj_loader.h>
@@ -12,46 +11,18 @@
 
 namespace plumb {
 
-void ObjFaceQueue::push(std::vector<ObjFaceBlock> blocks)
-{
-    {
-        const std::lock_guard lock(mutex_);
-        if (blocks_.empty())
-            blocks_ = std::move(blocks);
-        else
-            blocks_.insert(blocks_.end(), blocks.begin(), blocks.end());
-    }
-    changed_.notify_one();
-}
-
-void ObjFaceQueue::close()
-{
-    {
-        const std::lock_guard lock(mutex_);
-        closed_ = true;
-    }
-    changed_.notify_one();
-}
-
-std::vector<ObjFaceBlock> ObjFaceQueue::pop()
-{
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [this] { return closed_ || !blocks_.empty(); });
-    return std::exchange(blocks_, {});
-}
-
 namespace {
 
-// The blocks of a queue as one text, each block ended by a line end.
+// The blocks as one text, each ended by a line end.
 class FaceText final : public std::streambuf {
 public:
-    explicit FaceText(ObjFaceQueue& queue) : queue_(queue) {}
+    explicit FaceText(std::span<const ObjFaceBlock> blocks) : blocks_(blocks) {}
 
     // The block that face number `face` is in; faces are asked for in order.
     const ObjFaceBlock& block_of(std::size_t face)
     {
-        while (begun_.size() > 1 && begun_[1].first_face <= face) begun_.pop_front();
-        return begun_.front();
+        while (current_ + 1 < blocks_.size() && blocks_[current_ + 1].first_face <= face) ++current_;
+        return blocks_[current_];
     }
 
 private:
@@ -61,15 +32,10 @@ private:
             at_line_end_ = true;
             serve(line_end_, 1);
         } else {
-            if (next_ == waiting_.size()) {
-                waiting_ = queue_.pop();
-                next_ = 0;
-                if (waiting_.empty()) return traits_type::eof();
-            }
-            begun_.push_back(waiting_[next_++]);
+            if (next_ == blocks_.size()) return traits_type::eof();
             at_line_end_ = false;
             // The stream only reads; streambuf's interface just has no const.
-            const std::string_view text = begun_.back().text;
+            const std::string_view text = blocks_[next_++].text;
             serve(const_cast<char*>(text.data()), text.size());
         }
         return traits_type::to_int_type(*gptr());
@@ -77,10 +43,9 @@ private:
 
     void serve(char* text, std::size_t size) { setg(text, text, text + size); }
 
-    ObjFaceQueue& queue_;
-    std::vector<ObjFaceBlock> waiting_;
+    std::span<const ObjFaceBlock> blocks_;
     std::size_t next_ = 0;
-    std::deque<ObjFaceBlock> begun_;
+    std::size_t current_ = 0;
     bool at_line_end_ = true;
     char line_end_[1] = {'\n'};
 };
@@ -113,9 +78,9 @@ struct Reader {
 
 } // namespace
 
-ObjFaces read_obj_faces(ObjFaceQueue& queue)
+ObjFaces read_obj_faces(std::span<const ObjFaceBlock> blocks)
 {
-    FaceText text(queue);
+    FaceText text(blocks);
     Reader reader{text, {}};
     tinyobj::callback_t callback;
     callback.index_cb = [](void* self, tinyobj::index_t* indices, int count) {

@@ -2,6 +2,7 @@
 
 #include "io/obj_mesh.h"
 
+#include "core/parallel.h"
 #include "io/obj_polygon.h"
 #include "plumb/error.h"
 
@@ -73,75 +74,166 @@ private:
     std::vector<ObjCorner> corners_;
 };
 
-class Assembler {
+// What the whole file has.
+struct FileFacts {
+    const ObjAttributes& attributes;
+    bool with_uvs = false;
+    bool with_normals = false;
+};
+
+// The triangles of a chunk: three corners each, and what became of the others.
+struct ObjTriangles {
+    ObjCorners corners;
+    std::vector<Vec3f> face_normals; // a corner's normal -2 - i is the i-th of them
+    std::size_t without_area = 0;
+};
+
+// Cuts the faces of a chunk into triangles that have an area.
+class Cutter {
 public:
-    Assembler(ObjAttributes& attributes, const ObjFaces& faces) : found_(attributes), faces_(faces)
-    {
-        for (Vec3f& normal : found_.normals)
-            if (normal != Vec3f(0.f)) normal = normalize(normal);
-    }
+    Cutter(const FileFacts& file, const ObjFaces& faces) : file_(file), faces_(faces) {}
 
-    MeshData run()
-    {
-        if (faces_.any_uv || faces_.any_normal)
-            share_corners();
-        else
-            share_positions();
-        if (mesh_.triangles.empty()) throw Error("no face has an area");
-        write_warning();
-        return std::move(mesh_);
-    }
-
-private:
-    // Calls use(face, a, b, c) for each triangle with an area; a, b, c number corners.
-    template <class Use>
-    void for_each_triangle(const Use& use)
+    ObjTriangles run()
     {
         std::vector<Vec3f> polygon;
         std::vector<PolygonTriangle> cut;
         std::uint32_t begin = 0;
-        mesh_.triangles.reserve(faces_.corners.size() - 2 * faces_.ends.size());
-        for (std::uint32_t face = 0; face < faces_.ends.size(); ++face) {
-            const std::uint32_t end = faces_.ends[face];
+        for (const std::uint32_t end : faces_.ends) {
+            face_begin_ = begin;
+            face_end_ = end;
+            has_face_normal_ = false;
             if (end - begin == 3) {
-                use_if_area(use, face, begin, begin + 1, begin + 2);
+                add_if_area(begin, begin + 1, begin + 2);
             } else {
                 polygon.clear();
                 cut.clear();
                 for (std::uint32_t i = begin; i < end; ++i) polygon.push_back(position(i));
                 triangulate_polygon(polygon, cut);
-                for (const PolygonTriangle& t : cut)
-                    use_if_area(use, face, begin + t[0], begin + t[1], begin + t[2]);
+                for (const PolygonTriangle& t : cut) add_if_area(begin + t[0], begin + t[1], begin + t[2]);
             }
             begin = end;
         }
+        return std::move(result_);
     }
 
-    template <class Use>
-    void use_if_area(const Use& use, std::uint32_t face, std::uint32_t a, std::uint32_t b, std::uint32_t c)
+private:
+    void add_if_area(std::uint32_t a, std::uint32_t b, std::uint32_t c)
     {
         if (has_area(position(a), position(b), position(c)))
-            use(face, a, b, c);
+            for (const std::uint32_t i : {a, b, c}) result_.corners.push_back(corner(i));
         else
-            ++without_area_;
+            ++result_.without_area;
     }
 
-    const Vec3f& position(std::uint32_t corner) const
+    ObjCorner corner(std::uint32_t i)
     {
-        return found_.positions[static_cast<std::size_t>(faces_.corners[corner].position)];
+        ObjCorner corner = faces_.corners[i];
+        if (!file_.with_uvs) corner.uv = -1;
+        if (file_.with_normals && !has_normal(corner)) corner.normal = face_normal();
+        return corner;
+    }
+
+    const Vec3f& position(std::uint32_t i) const
+    {
+        return file_.attributes.positions[static_cast<std::size_t>(faces_.corners[i].position)];
+    }
+
+    bool has_normal(const ObjCorner& corner) const
+    {
+        return corner.normal >= 0 &&
+               file_.attributes.normals[static_cast<std::size_t>(corner.normal)] != Vec3f(0.f);
+    }
+
+    // The index of the face's own normal.
+    std::int32_t face_normal()
+    {
+        if (!has_face_normal_) {
+            std::vector<Vec3f> polygon;
+            for (std::uint32_t i = face_begin_; i < face_end_; ++i) polygon.push_back(position(i));
+            const Vec3d sum = newell_normal(polygon);
+            result_.face_normals.push_back(sum == Vec3d(0.0) ? Vec3f(0.f, 0.f, 1.f) : Vec3f(normalize(sum)));
+            has_face_normal_ = true;
+        }
+        return -1 - static_cast<std::int32_t>(result_.face_normals.size());
+    }
+
+    const FileFacts& file_;
+    const ObjFaces& faces_;
+    ObjTriangles result_;
+    std::uint32_t face_begin_ = 0;
+    std::uint32_t face_end_ = 0;
+    bool has_face_normal_ = false;
+};
+
+class Assembler {
+public:
+    Assembler(ObjAttributes& attributes, std::vector<ObjFaces> faces) : found_(attributes)
+    {
+        bool any_uv = false;
+        bool all_uv = true;
+        bool any_normal = false;
+        for (const ObjFaces& chunk : faces) {
+            any_uv |= chunk.any_uv;
+            all_uv &= chunk.all_uv;
+            any_normal |= chunk.any_normal;
+            face_count_ += chunk.ends.size();
+        }
+        dropped_uvs_ = any_uv && !all_uv;
+        file_.with_uvs = any_uv && all_uv;
+        file_.with_normals = any_normal;
+        chunks_.resize(faces.size());
+        parallel_for(faces.size(), 0, [&](std::size_t i) {
+            chunks_[i] = Cutter(file_, faces[i]).run();
+            faces[i] = {}; // memory
+        });
+    }
+
+    MeshData run()
+    {
+        std::size_t corners = 0;
+        for (const ObjTriangles& chunk : chunks_) corners += chunk.corners.size();
+        if (corners == 0) throw Error("no face has an area");
+        mesh_.triangles.reserve(corners / 3);
+        if (file_.with_uvs || file_.with_normals)
+            share_corners();
+        else
+            share_positions();
+        write_warning();
+        return std::move(mesh_);
+    }
+
+private:
+    // Takes them chunk by chunk; number(corner) is the number of its vertex.
+    template <class Number>
+    void make_triangles(const Number& number)
+    {
+        for (ObjTriangles& chunk : chunks_) {
+            const auto first_normal = static_cast<std::int32_t>(found_.normals.size());
+            found_.normals.insert(found_.normals.end(), chunk.face_normals.begin(), chunk.face_normals.end());
+            const auto index = [&](std::size_t i) {
+                ObjCorner corner = chunk.corners[i];
+                if (corner.normal < -1) corner.normal = first_normal - 2 - corner.normal;
+                return number(corner);
+            };
+            for (std::size_t i = 0; i < chunk.corners.size(); i += 3) {
+                const std::uint32_t a = index(i);
+                const std::uint32_t b = index(i + 1);
+                mesh_.triangles.push_back({a, b, index(i + 2)});
+            }
+            without_area_ += chunk.without_area;
+            faces_without_normal_ += chunk.face_normals.size();
+            chunk = {}; // memory
+        }
     }
 
     // Without uvs and normals: the file's positions, but for those that no triangle uses.
     void share_positions()
     {
         std::vector<std::uint32_t> numbers(found_.positions.size(), unused);
-        const auto index = [&](std::uint32_t corner) {
-            const auto position = static_cast<std::uint32_t>(faces_.corners[corner].position);
+        make_triangles([&](const ObjCorner& corner) {
+            const auto position = static_cast<std::uint32_t>(corner.position);
             numbers[position] = position;
             return position;
-        };
-        for_each_triangle([&](std::uint32_t, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-            mesh_.triangles.push_back({index(a), index(b), index(c)});
         });
         mesh_.positions = std::move(found_.positions);
         if (std::find(numbers.begin(), numbers.end(), unused) == numbers.end()) return;
@@ -160,52 +252,19 @@ private:
     // With uvs or normals: one vertex for each different triple of indices.
     void share_corners()
     {
-        const bool with_uvs = faces_.any_uv && faces_.all_uv;
-        dropped_uvs_ = faces_.any_uv && !faces_.all_uv;
         CornerNumbers numbers(found_.positions.size());
-        const auto index = [&](std::uint32_t face, std::uint32_t number) {
-            ObjCorner corner = faces_.corners[number];
-            if (!with_uvs) corner.uv = -1;
-            if (faces_.any_normal && !has_normal(corner)) corner.normal = face_normal(face);
-            return numbers[corner];
-        };
-        for_each_triangle([&](std::uint32_t face, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-            const std::uint32_t first = index(face, a);
-            const std::uint32_t second = index(face, b);
-            mesh_.triangles.push_back({first, second, index(face, c)});
-        });
+        make_triangles([&](const ObjCorner& corner) { return numbers[corner]; });
 
         const std::size_t count = numbers.corners().size();
-        mesh_.positions.reserve(count);
-        if (with_uvs) mesh_.uvs.reserve(count);
-        if (faces_.any_normal) mesh_.normals.reserve(count);
+        mesh_.positions.reserve(count + 1); // MeshData
+        if (file_.with_uvs) mesh_.uvs.reserve(count);
+        if (file_.with_normals) mesh_.normals.reserve(count);
         for (const ObjCorner& corner : numbers.corners()) {
             mesh_.positions.push_back(found_.positions[static_cast<std::size_t>(corner.position)]);
-            if (with_uvs) mesh_.uvs.push_back(found_.uvs[static_cast<std::size_t>(corner.uv)]);
-            if (faces_.any_normal)
+            if (file_.with_uvs) mesh_.uvs.push_back(found_.uvs[static_cast<std::size_t>(corner.uv)]);
+            if (file_.with_normals)
                 mesh_.normals.push_back(found_.normals[static_cast<std::size_t>(corner.normal)]);
         }
-    }
-
-    bool has_normal(const ObjCorner& corner) const
-    {
-        return corner.normal >= 0 && found_.normals[static_cast<std::size_t>(corner.normal)] != Vec3f(0.f);
-    }
-
-    // The index of the face's own normal, which is added to the file's when it is first needed.
-    std::int32_t face_normal(std::uint32_t face)
-    {
-        if (face != last_face_) {
-            std::vector<Vec3f> polygon;
-            for (std::uint32_t i = face == 0 ? 0 : faces_.ends[face - 1]; i < faces_.ends[face]; ++i)
-                polygon.push_back(position(i));
-            const Vec3d sum = newell_normal(polygon);
-            const Vec3f normal = sum == Vec3d(0.0) ? Vec3f(0.f, 0.f, 1.f) : Vec3f(normalize(sum));
-            found_.normals.push_back(normal);
-            last_face_ = face;
-            ++faces_without_normal_;
-        }
-        return static_cast<std::int32_t>(found_.normals.size() - 1);
     }
 
     void write_warning()
@@ -219,24 +278,25 @@ private:
             add(fmt::format(
                 "{} of {} faces have corners without a normal, or with one of length zero, where the face's "
                 "own normal is used",
-                faces_without_normal_, faces_.ends.size()));
+                faces_without_normal_, face_count_));
         if (dropped_uvs_) add("texture coordinates are left out, because some face corners have none");
     }
 
     ObjAttributes& found_;
-    const ObjFaces& faces_;
+    FileFacts file_{found_};
+    std::vector<ObjTriangles> chunks_;
     MeshData mesh_;
+    std::size_t face_count_ = 0;
     std::size_t without_area_ = 0;
     std::size_t faces_without_normal_ = 0;
-    std::uint32_t last_face_ = unused;
     bool dropped_uvs_ = false;
 };
 
 } // namespace
 
-MeshData assemble_obj_mesh(ObjAttributes attributes, const ObjFaces& faces)
+MeshData assemble_obj_mesh(ObjAttributes attributes, std::vector<ObjFaces> faces)
 {
-    return Assembler(attributes, faces).run();
+    return Assembler(attributes, std::move(faces)).run();
 }
 
 } // namespace plumb

@@ -8,7 +8,7 @@
 
 namespace plumb {
 
-// The indices of `faces` must be in range. Throws Error if no triangle has an area.
-MeshData assemble_obj_mesh(ObjAttributes attributes, const ObjFaces& faces);
+// faces: of the file's chunks, in order; their indices must be in range. Throws Error if no triangle has an area.
+MeshData assemble_obj_mesh(ObjAttributes attributes, std::vector<ObjFaces> faces);
 
 } // namespace plumb

@@ -18,7 +18,6 @@ namespace plumb {
 namespace {
 
 constexpr float largest_coordinate = 1e18f;
-constexpr std::size_t batch_size = std::size_t{1} << 18; // bytes of faces that are passed on at once
 
 // What a line's keyword means, for messages.
 struct Numbers {
@@ -31,38 +30,49 @@ constexpr Numbers vertex_numbers{"a vertex", "v x y z", 3, 3};
 constexpr Numbers normal_numbers{"a normal", "vn x y z", 3, 3};
 constexpr Numbers uv_numbers{"a texture coordinate", "vt u v", 1, 2};
 
-// The indices of one kind: what they count, and the largest one that was seen.
+// The names of what indices count.
 struct IndexKind {
     const char* one;
     const char* many;
-    std::int32_t largest = 0;
-    std::string_view at = {};
 
     std::string counted(std::size_t count) const
     {
         return count == 0 ? fmt::format("no {}", many) : fmt::format("{} {}", count, count == 1 ? one : many);
     }
 };
+constexpr IndexKind position_indices{"vertex", "vertices"};
+constexpr IndexKind uv_indices{"texture coordinate", "texture coordinates"};
+constexpr IndexKind normal_indices{"normal", "normals"};
+
+[[noreturn]] void fail(const ObjFile& file, std::string_view at, const std::string& message)
+{
+    const auto offset = static_cast<std::size_t>(at.data() - file.text.data());
+    throw FileError(SourceLocation::from_offset(file.name, file.text, offset, at.size()), message);
+}
+
+// The keyword of a line: v, vn, vt, f; or nothing where it is another. p: behind the line's blanks.
+std::string_view keyword_at(const char* p)
+{
+    const std::string_view keyword(p, p[0] == 'v' && (p[1] == 't' || p[1] == 'n') ? 2 : 1);
+    const char next = p[keyword.size()];
+    const bool known = keyword[0] == 'v' || keyword[0] == 'f';
+    return known && (is_blank(next) || is_line_end(next)) ? keyword : std::string_view();
+}
 
 class Scanner {
 public:
-    Scanner(const std::string& file, std::string_view text, ObjFaceQueue& queue)
-        : file_(file), text_(text), queue_(queue)
+    Scanner(const ObjFile& file, std::string_view chunk, const ObjCounts& before, ObjAttributes& found)
+        : file_(file), chunk_(chunk), next_(before), found_(found)
     {}
 
-    ObjAttributes run()
+    ObjChunk run()
     {
-        const char* p = text_.data();
-        const char* const end = p + text_.size();
-        if (text_.starts_with("\xef\xbb\xbf")) p += 3; // a byte order mark
+        const char* p = chunk_.data();
+        const char* const end = p + chunk_.size();
         while (p != end) p = scan_line(p);
-        pass_on_block();
-        pass_on_batch();
-        if (face_count_ == 0) fail_without_faces();
-        check_largest(position_indices_, found_.positions.size());
-        check_largest(uv_indices_, found_.uvs.size());
-        check_largest(normal_indices_, found_.normals.size());
-        return std::move(found_);
+        end_block();
+        result_.faces = read_obj_faces(blocks_);
+        return std::move(result_);
     }
 
 private:
@@ -70,26 +80,23 @@ private:
     const char* scan_line(const char* line)
     {
         const char* p = skip_blanks(line);
-        if (is_line_end(*p)) return next_line(p);
-        const std::string_view keyword(p, p[0] == 'v' && (p[1] == 't' || p[1] == 'n') ? 2 : 1);
+        const std::string_view keyword = keyword_at(p);
         const char* rest = p + keyword.size();
-        const bool complete = is_blank(*rest) || is_line_end(*rest);
-        if (complete && keyword == "f") return scan_face(line, p, rest);
-        if (complete && keyword == "v") {
+        if (keyword == "f") return scan_face(line, p, rest);
+        if (keyword == "v") {
             float x[3];
             rest = scan_numbers(p, rest, vertex_numbers, x);
-            found_.positions.emplace_back(x[0], x[1], x[2]);
-        } else if (complete && keyword == "vn") {
+            found_.positions[next_.positions++] = Vec3f(x[0], x[1], x[2]);
+        } else if (keyword == "vn") {
             float x[3];
             rest = scan_numbers(p, rest, normal_numbers, x);
-            found_.normals.emplace_back(x[0], x[1], x[2]);
-        } else if (complete && keyword == "vt") {
+            const Vec3f normal(x[0], x[1], x[2]);
+            found_.normals[next_.normals++] = normal != Vec3f(0.f) ? normalize(normal) : normal;
+        } else if (keyword == "vt") {
             float x[3] = {0.f, 0.f, 0.f};
             rest = scan_numbers(p, rest, uv_numbers, x);
-            found_.uvs.emplace_back(x[0], x[1]);
-        } else {
-            rest = p; // anything else is skipped
-        }
+            found_.uvs[next_.uvs++] = Vec2f(x[0], x[1]);
+        } // anything else is skipped
         return next_line(rest);
     }
 
@@ -139,13 +146,13 @@ private:
                  fmt::format("a face needs at least 3 corners, not {}", count));
 
         // Extend the block if nothing came in between.
-        if (line != block_next_ || block_bytes() >= batch_size) {
-            pass_on_block();
+        if (line != block_next_) {
+            end_block();
             block_ = {{},
                       face_count_,
-                      static_cast<std::int32_t>(found_.positions.size()),
-                      static_cast<std::int32_t>(found_.uvs.size()),
-                      static_cast<std::int32_t>(found_.normals.size())};
+                      static_cast<std::int32_t>(next_.positions),
+                      static_cast<std::int32_t>(next_.uvs),
+                      static_cast<std::int32_t>(next_.normals)};
             block_begin_ = line;
         }
         ++face_count_;
@@ -159,18 +166,19 @@ private:
     const char* scan_corner(const char* p)
     {
         const char* const begin = p;
-        p = scan_index(begin, p, found_.positions.size(), position_indices_);
+        p = scan_index(begin, p, next_.positions, position_indices, result_.position);
         if (*p == '/' && p[1] == '/') {
-            p = scan_index(begin, p + 2, found_.normals.size(), normal_indices_);
+            p = scan_index(begin, p + 2, next_.normals, normal_indices, result_.normal);
         } else if (*p == '/') {
-            p = scan_index(begin, p + 1, found_.uvs.size(), uv_indices_);
-            if (*p == '/') p = scan_index(begin, p + 1, found_.normals.size(), normal_indices_);
+            p = scan_index(begin, p + 1, next_.uvs, uv_indices, result_.uv);
+            if (*p == '/') p = scan_index(begin, p + 1, next_.normals, normal_indices, result_.normal);
         }
         if (!is_blank(*p) && !is_line_end(*p)) fail_corner(begin);
         return p;
     }
 
-    const char* scan_index(const char* corner, const char* p, std::size_t count_so_far, IndexKind& kind) const
+    const char* scan_index(const char* corner, const char* p, std::size_t count_so_far, const IndexKind& kind,
+                           ObjLargestIndex& largest) const
     {
         const char* const begin = p;
         const bool negative = *p == '-';
@@ -186,41 +194,21 @@ private:
         if (negative && magnitude > static_cast<std::int64_t>(count_so_far))
             fail(token, fmt::format("{} index {} reaches back beyond the first: {} so far", kind.one,
                                     excerpt(token), kind.counted(count_so_far)));
-        if (!negative && magnitude > kind.largest) {
-            kind.largest = static_cast<std::int32_t>(magnitude);
-            kind.at = token;
-        }
+        if (!negative && magnitude > largest.value) largest = {static_cast<std::int32_t>(magnitude), token};
         return p;
     }
 
-    void check_largest(const IndexKind& kind, std::size_t count) const
-    {
-        if (kind.largest > static_cast<std::int64_t>(count))
-            fail(kind.at, fmt::format("{} index {} is out of range: the file has {}", kind.one,
-                                      excerpt(kind.at), kind.counted(count)));
-    }
-
-    std::size_t block_bytes() const { return static_cast<std::size_t>(block_end_ - block_begin_); }
-    void pass_on_block()
+    void end_block()
     {
         if (!block_begin_) return;
-        block_.text = std::string_view(block_begin_, block_bytes());
-        batch_.push_back(block_);
-        batch_bytes_ += block_.text.size();
+        block_.text = std::string_view(block_begin_, static_cast<std::size_t>(block_end_ - block_begin_));
+        blocks_.push_back(block_);
         block_begin_ = block_end_ = block_next_ = nullptr;
-        if (batch_bytes_ >= batch_size) pass_on_batch();
-    }
-
-    void pass_on_batch()
-    {
-        if (!batch_.empty()) queue_.push(std::exchange(batch_, {}));
-        batch_bytes_ = 0;
     }
 
     [[noreturn]] void fail(std::string_view at, const std::string& message) const
     {
-        const auto offset = static_cast<std::size_t>(at.data() - text_.data());
-        throw FileError(SourceLocation::from_offset(file_, text_, offset, at.size()), message);
+        plumb::fail(file_, at, message);
     }
 
     [[noreturn]] void fail_corner(const char* begin) const
@@ -236,40 +224,71 @@ private:
         fail(token, "lines continued with '\\' are not supported; write the line as one");
     }
 
-    [[noreturn]] void fail_without_faces() const
-    {
-        if (text_.find('\0') != std::string_view::npos)
-            throw Error(fmt::format("cannot read '{}': not a text file", file_));
-        throw Error(fmt::format("cannot read '{}': no faces (lines that begin with 'f')", file_));
-    }
-
-    const std::string& file_;
-    std::string_view text_;
-    ObjFaceQueue& queue_;
-    ObjAttributes found_;
+    const ObjFile& file_;
+    std::string_view chunk_;
+    ObjCounts next_; // what has been found so far, in the whole file
+    ObjAttributes& found_;
+    ObjChunk result_;
     std::size_t face_count_ = 0;
-    IndexKind position_indices_{"vertex", "vertices"};
-    IndexKind uv_indices_{"texture coordinate", "texture coordinates"};
-    IndexKind normal_indices_{"normal", "normals"};
 
-    // The faces that were checked and not yet passed on.
+    // Faces that were checked.
     ObjFaceBlock block_;
     const char* block_begin_ = nullptr;
     const char* block_end_ = nullptr;
     const char* block_next_ = nullptr; // the line that would extend the block
-    std::vector<ObjFaceBlock> batch_;
-    std::size_t batch_bytes_ = 0;
+    std::vector<ObjFaceBlock> blocks_;
 };
+
+[[noreturn]] void fail_without_faces(const ObjFile& file)
+{
+    if (file.text.find('\0') != std::string_view::npos)
+        throw Error(fmt::format("cannot read '{}': not a text file", file.name));
+    throw Error(fmt::format("cannot read '{}': no faces (lines that begin with 'f')", file.name));
+}
+
+void check_largest(const ObjFile& file, const std::vector<ObjChunk>& chunks, ObjLargestIndex ObjChunk::*index,
+                   const IndexKind& kind, std::size_t count)
+{
+    ObjLargestIndex largest;
+    for (const ObjChunk& chunk : chunks)
+        if ((chunk.*index).value > largest.value) largest = chunk.*index;
+    if (largest.value > static_cast<std::int64_t>(count))
+        fail(file, largest.at,
+             fmt::format("{} index {} is out of range: the file has {}", kind.one, excerpt(largest.at),
+                         kind.counted(count)));
+}
 
 } // namespace
 
-ObjAttributes scan_obj(const std::string& file, std::string_view text, ObjFaceQueue& queue)
+ObjCounts count_obj(std::string_view chunk)
 {
-    struct Closer {
-        ObjFaceQueue& queue;
-        ~Closer() { queue.close(); }
-    } const closer{queue};
-    return Scanner(file, text, queue).run();
+    ObjCounts counts;
+    const char* const end = chunk.data() + chunk.size();
+    for (const char* p = chunk.data(); p != end; p = next_line(p)) {
+        p = skip_blanks(p);
+        const std::string_view keyword = keyword_at(p);
+        if (keyword == "v")
+            ++counts.positions;
+        else if (keyword == "vt")
+            ++counts.uvs;
+        else if (keyword == "vn")
+            ++counts.normals;
+    }
+    return counts;
+}
+
+ObjChunk scan_obj(const ObjFile& file, std::string_view chunk, const ObjCounts& before, ObjAttributes& found)
+{
+    return Scanner(file, chunk, before, found).run();
+}
+
+void check_obj(const ObjFile& file, const std::vector<ObjChunk>& chunks, const ObjCounts& all)
+{
+    const auto has_faces = [](const ObjChunk& chunk) { return !chunk.faces.ends.empty(); };
+    if (std::none_of(chunks.begin(), chunks.end(), has_faces)) fail_without_faces(file);
+    check_largest(file, chunks, &ObjChunk::position, position_indices, all.positions);
+    check_largest(file, chunks, &ObjChunk::uv, uv_indices, all.uvs);
+    check_largest(file, chunks, &ObjChunk::normal, normal_indices, all.normals);
 }
 
 } // namespace plumb

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Checks the text of an OBJ file and reads its numbers.
+// Checks the text of an OBJ file and reads its numbers, chunk by chunk.
 //
 // tinyobjloader turns what it cannot read into 0, and rounds decimals with libm's pow; so numbers are read here, to
 // the nearest float, and faces are passed on to it only when they were found to be in order.
@@ -15,13 +15,46 @@
 
 namespace plumb {
 
+struct ObjCounts {
+    std::size_t positions = 0;
+    std::size_t uvs = 0;
+    std::size_t normals = 0;
+};
+
+// Of the whole file.
 struct ObjAttributes {
     std::vector<Vec3f> positions;
-    std::vector<Vec3f> normals; // as in the file: of any length
+    std::vector<Vec3f> normals; // of unit length, or 0 as in the file
     std::vector<Vec2f> uvs;
 };
 
-// text: must end with a line end. file: its name, for messages. Closes the queue when it returns; throws FileError.
-ObjAttributes scan_obj(const std::string& file, std::string_view text, ObjFaceQueue& queue);
+struct ObjFile {
+    std::string name;      // for messages
+    std::string_view text; // ends with a line end
+};
+
+// The largest index of one kind, and where it stands first.
+struct ObjLargestIndex {
+    std::int32_t value = 0;
+    std::string_view at = {};
+};
+
+struct ObjChunk {
+    ObjFaces faces;
+    ObjLargestIndex position;
+    ObjLargestIndex uv;
+    ObjLargestIndex normal;
+};
+
+// How many of them the lines of `chunk` give.
+ObjCounts count_obj(std::string_view chunk);
+
+// chunk: whole lines of the file. before: what the lines in front of it give. The numbers go to their places in `found`,
+// which other chunks may fill meanwhile. Throws FileError.
+ObjChunk scan_obj(const ObjFile& file, std::string_view chunk, const ObjCounts& before, ObjAttributes& found);
+
+// What can be told only when all chunks have been read: throws FileError for an index that is out of range, and Error
+// for a file without faces.
+void check_obj(const ObjFile& file, const std::vector<ObjChunk>& chunks, const ObjCounts& all);
 
 } // namespace plumb

@@ -4,6 +4,7 @@
 #include "cli/text_file.h"
 
 #include "plumb/hash.h"
+#include "plumb/image.h"
 
 #include <fmt/format.h>
 #include <fstream>
@@ -33,7 +34,7 @@ std::string hash_of_files(const std::vector<std::string>& files)
 
 const std::string& hash_of_program()
 {
-    static const std::string hash = hash_of_files({"/proc/self/exe"});
+    static const std::string hash = hash_of_files({"/proc/self/exe", ImageLibrary::file()});
     return hash;
 }
 

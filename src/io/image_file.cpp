@@ -2,7 +2,7 @@
 
 // [1] "Portable Network Graphics (PNG) Specification", 2nd ed., ISO/IEC 15948:2003, sections 5.2 and 5.3.
 
-#include "io/image_png.h"
+#include "io/image_file.h"
 
 #include <array>
 #include <cstdint>
@@ -10,6 +10,16 @@
 #include <string_view>
 
 namespace plumb {
+
+std::string_view problem_of_file(const std::filesystem::path& path)
+{
+    std::error_code error;
+    const std::filesystem::file_status status = std::filesystem::status(path, error);
+    if (!std::filesystem::exists(status)) return "no such file";
+    if (std::filesystem::is_directory(status)) return "it is a folder";
+    if (!std::filesystem::is_regular_file(status)) return "it is a device, a pipe or the like, not a file";
+    return {};
+}
 
 bool is_truncated_png(const std::filesystem::path& path)
 {

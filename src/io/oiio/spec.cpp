@@ -1,24 +1,14 @@
 // SPDX-License-Identifier: MIT
 
-#include "io/image_spec.h"
+#include "io/oiio/spec.h"
 
-#include "io/image_quiet.h"
 #include "io/image_text.h"
+#include "io/oiio/quiet.h"
 #include "plumb/error.h"
 
 #include <OpenImageIO/filesystem.h>
 
 namespace plumb {
-
-std::string_view problem_of_file(const std::filesystem::path& path)
-{
-    std::error_code error;
-    const std::filesystem::file_status status = std::filesystem::status(path, error);
-    if (!std::filesystem::exists(status)) return "no such file";
-    if (std::filesystem::is_directory(status)) return "it is a folder";
-    if (!std::filesystem::is_regular_file(status)) return "it is a device, a pipe or the like, not a file";
-    return {};
-}
 
 std::unique_ptr<OIIO::ImageInput> open_image(const std::string& name)
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What our files of pictures have in common with OpenImageIO's idea of them; for src/io/image*.cpp.
+// What our files of pictures have in common with OpenImageIO's idea of them; for src/io/oiio.
 
 #include "plumb/image.h"
 
@@ -10,13 +10,9 @@
 #include <functional>
 #include <memory>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace plumb {
-
-// Why there is no file at `path` to be read, for an error message; empty: there is one.
-std::string_view problem_of_file(const std::filesystem::path& path);
 
 // The file at `name`, opened by a reader for what it holds. Throws Error with the reason.
 std::unique_ptr<OIIO::ImageInput> open_image(const std::string& name);
