@@ -47,7 +47,8 @@ public:
     virtual ShapeSample sample_area(double u_select, const Vec2f& u) const = 0;
 
     // Uniform over the solid angle that the shape subtends at `from`; nothing where the shape cannot do that from
-    // there (inside a sphere, say; a mesh never can). pdf per unit solid angle.
+    // there, or where sample_area is as good (inside a sphere, behind a rectangle or far from it; of meshes, only those
+    // that are rectangles can). pdf per unit solid angle.
     virtual std::optional<ShapeSample> sample_solid_angle(const Vec3f& from, const Vec2f& u) const;
     // The density of sample_solid_angle(from), constant over the visible part; nothing where that returns nothing.
     virtual std::optional<float> solid_angle_pdf(const Vec3f& from) const;

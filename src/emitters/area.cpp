@@ -10,8 +10,9 @@ namespace plumb {
 /// A surface that emits light: the same radiance in every direction on the front side of its shape, none behind.
 ///
 /// The front side is that of the geometric normal, which is on the side of the vertex normals where a mesh has
-/// them. Spheres are sampled by the solid angle that they subtend, other shapes uniformly over their area. Stands
-/// inside the mesh or shape that emits.
+/// them. Spheres are sampled by the solid angle that they subtend; so are rectangles, and meshes of two triangles that
+/// make a rectangle, from nearer than their diagonal is long; all else uniformly over its area. Stands inside the mesh
+/// or shape that emits.
 ///
 ///     radiance   color or texture   in W / (m^2 sr), at least 0   (default 1; mcgill dialect: 0)
 ///     scale      float              multiplies radiance           (default 1)

@@ -37,7 +37,7 @@ namespace plumb {
 ///     isExplicit          boolean   sample emitters at each surface   (default false)
 ///     termination         string    max-depth or russian-roulette   (required)
 ///     termination-param   float or integer   the number of surface bounces (default 2), or the probability, in (0, 1), that a path ends at a surface (required)
-///     direct-measure      string    how explicit mode samples emitters: solid-angle (spheres only), area, hemisphere, or none   (default none: by solid angle where possible)
+///     direct-measure      string    how explicit mode samples emitters: solid-angle (spheres and rectangles only), area, hemisphere, or none   (default none: by solid angle where possible)
 ///     direct-warp         string    for direct-measure hemisphere: cosine-hemisphere, uniform-hemisphere or none   (default none: cosine)
 ///     indirect-measure    string    hemisphere   (default hemisphere)
 ///     indirect-warp       string    how the path goes on: cosine-hemisphere, uniform-hemisphere or none   (default none: cosine)

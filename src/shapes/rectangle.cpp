@@ -2,6 +2,7 @@
 
 #include "interfaces/plugin.h"
 #include "plumb/shape.h"
+#include "shapes/spherical_rectangle.h"
 #include "shapes/triangle.h"
 
 #include <fmt/format.h>
@@ -70,6 +71,7 @@ public:
         shading_ = Frame(normal_);
         clearance_ = std::max(triangle_clearance(triangle(0), normal_, area),
                               triangle_clearance(triangle(1), normal_, area));
+        spherical_ = SphericalRectangle::from(Vec3d(corners_[0]), edge1, edge2, normal_);
     }
 
     void add_to(AccelBuilder& builder) const override { builder.add_triangles(corners_, triangles_); }
@@ -88,14 +90,25 @@ public:
 
     ShapeSample sample_area(double /*u_select*/, const Vec2f& u) const override
     {
-        // The triangle that (u, v) lies in has the diagonal from the first corner to the third, and a corner of its own.
-        const double x = u.x;
-        const double y = u.y;
-        const double difference = std::abs(x - y);
-        const double smaller = (x + y - difference) * 0.5; // exactly, and without a jump
-        const TriangleEdges& half = halves_[static_cast<std::size_t>(y > x)];
-        return {triangle_point(half, {difference, smaller}), clearance_, normal_, area_pdf_, u};
+        return {point(u.x, u.y), clearance_, normal_, area_pdf_, u};
     }
+
+    std::optional<ShapeSample> sample_solid_angle(const Vec3f& from, const Vec2f& u) const override
+    {
+        if (!spherical_) return std::nullopt;
+        const auto place = spherical_->sample(from, u);
+        if (!place) return std::nullopt;
+        const Vec2f uv(static_cast<float>(place->along_edge1), static_cast<float>(place->along_edge2));
+        return ShapeSample{point(place->along_edge1, place->along_edge2), clearance_, normal_, place->pdf,
+                           uv};
+    }
+
+    std::optional<float> solid_angle_pdf(const Vec3f& from) const override
+    {
+        return spherical_ ? spherical_->pdf(from) : std::nullopt;
+    }
+
+    bool has_solid_angle() const override { return spherical_.has_value(); }
 
     float area() const override { return area_; }
 
@@ -116,6 +129,16 @@ private:
         return length(projected) > parallel_below ? normalize(projected) : Vec3d(0.0, 0.0, 1.0);
     }
 
+    // The point at uv = (x, y).
+    Vec3f point(double x, double y) const
+    {
+        // The triangle that it lies in has the diagonal from the first corner to the third, and a corner of its own.
+        const double difference = std::abs(x - y);
+        const double smaller = std::min(x, y); // without a jump
+        const TriangleEdges& half = halves_[static_cast<std::size_t>(y > x)];
+        return triangle_point(half, {difference, smaller});
+    }
+
     TriangleCorners triangle(std::uint32_t primitive) const
     {
         const AccelBuilder::Triangle& t = triangles_[primitive];
@@ -123,9 +146,10 @@ private:
     }
 
     static constexpr std::array<AccelBuilder::Triangle, 2> triangles_ = {{{0, 1, 2}, {0, 2, 3}}};
-    std::array<Vec3f, 4> corners_;        // at uv = (0, 0), (1, 0), (1, 1), (0, 1)
-    std::array<TriangleEdges, 2> edges_;  // of triangles_
-    std::array<TriangleEdges, 2> halves_; // below and above the diagonal, which comes last in both
+    std::array<Vec3f, 4> corners_;                // at uv = (0, 0), (1, 0), (1, 1), (0, 1)
+    std::array<TriangleEdges, 2> edges_;          // of triangles_
+    std::array<TriangleEdges, 2> halves_;         // below and above the diagonal, which comes last in both
+    std::optional<SphericalRectangle> spherical_; // unless it is a parallelogram
     Vec3f normal_{0.f, 0.f, 1.f};
     float clearance_ = 0.f;
     Frame shading_;

@@ -5,6 +5,7 @@
 #include "plumb/mesh.h"
 #include "plumb/sampling.h"
 #include "plumb/shape.h"
+#include "shapes/spherical_rectangle.h"
 #include "shapes/triangle.h"
 
 #include <utility>
@@ -48,6 +49,7 @@ public:
         choice_ = DiscreteDistribution(areas);
         area_ = static_cast<float>(choice_.sum());
         if (!(area_ > 0.f)) throw Error("every triangle of '" + file.string() + "' has an area of 0");
+        rectangle_ = rectangle();
     }
 
     void add_to(AccelBuilder& builder) const override
@@ -77,14 +79,25 @@ public:
         const std::uint32_t primitive = choice_.sample(u_select).index;
         const Vec2f uv_in_triangle = square_to_triangle(u);
         const Barycentric b{uv_in_triangle.x, uv_in_triangle.y};
-        const TriangleCorners t = corners(primitive);
-        const TriangleEdges edges = t.edges();
-        const Vec3d normal = triangle_cross(edges);
-        const double normal_length = length(normal);
-        const Vec3f front = front_normal(primitive, normal * (1.0 / normal_length));
-        return {triangle_point(edges, b), triangle_clearance(t, front, normal_length), front, 1.f / area_,
-                uv(primitive, b)};
+        if (rectangle_) return sample_at(primitive, rectangle_->faces[primitive], b, 1.f / area_);
+        return sample_at(primitive, face(primitive), b, 1.f / area_);
     }
+
+    std::optional<ShapeSample> sample_solid_angle(const Vec3f& from, const Vec2f& u) const override
+    {
+        if (!rectangle_) return std::nullopt;
+        const auto place = rectangle_->spherical.sample(from, u);
+        if (!place) return std::nullopt;
+        const auto [primitive, b] = rectangle_->at(place->along_edge1, place->along_edge2);
+        return sample_at(primitive, rectangle_->faces[primitive], b, place->pdf);
+    }
+
+    std::optional<float> solid_angle_pdf(const Vec3f& from) const override
+    {
+        return rectangle_ ? rectangle_->spherical.pdf(from) : std::nullopt;
+    }
+
+    bool has_solid_angle() const override { return rectangle_.has_value(); }
 
     float area() const override { return area_; }
 
@@ -99,6 +112,82 @@ public:
     std::uint64_t triangle_count() const override { return mesh_.triangles.size(); }
 
 private:
+    // What points of a triangle have in common.
+    struct Face {
+        TriangleEdges edges;
+        Vec3f normal;
+        float clearance;
+    };
+
+    Face face(std::uint32_t primitive) const
+    {
+        const TriangleCorners t = corners(primitive);
+        const TriangleEdges edges = t.edges();
+        const Vec3d normal = triangle_cross(edges);
+        const double normal_length = length(normal);
+        const Vec3f front = front_normal(primitive, normal * (1.0 / normal_length));
+        return {edges, front, triangle_clearance(t, front, normal_length)};
+    }
+
+    // Two triangles that make a rectangle, as most lamps do. Its first corner is the right angle of triangle 0, and its
+    // edges go to that triangle's next two corners.
+    struct MeshRectangle {
+        SphericalRectangle spherical;
+        std::array<Face, 2> faces;
+        std::size_t first;    // in triangle 0
+        std::size_t opposite; // in triangle 1
+        std::size_t end1;     // the end of edge 1, in triangle 1
+
+        // The primitive and its barycentric coordinates at fractions (x, y) of the edges.
+        std::pair<std::uint32_t, Barycentric> at(double x, double y) const
+        {
+            std::array<double, 3> weights;
+            const bool second = x + y > 1.0;
+            if (second) {
+                weights[opposite] = x + y - 1.0;
+                weights[end1] = 1.0 - y;
+                weights[3 - opposite - end1] = 1.0 - x;
+            } else {
+                weights[first] = 1.0 - x - y;
+                weights[(first + 1) % 3] = x;
+                weights[(first + 2) % 3] = y;
+            }
+            return {second, {weights[1], weights[2]}};
+        }
+    };
+
+    std::optional<MeshRectangle> rectangle() const
+    {
+        if (mesh_.triangles.size() != 2) return std::nullopt;
+        const auto corner = [&](std::size_t triangle, std::size_t i) {
+            return mesh_.positions[mesh_.triangles[triangle][i % 3]];
+        };
+        const std::array<Face, 2> faces = {face(0), face(1)};
+        if (!(dot(faces[0].normal, faces[1].normal) > 0.f)) return std::nullopt;
+        for (std::size_t first = 0; first < 3; ++first) {
+            const TriangleEdges t(corner(0, first), corner(0, first + 1), corner(0, first + 2));
+            const auto spherical = SphericalRectangle::from(t.corner, t.edge1, t.edge2, faces[0].normal);
+            if (!spherical) continue;
+            const Vec3d fourth = t.corner + t.edge1 + t.edge2;
+            const double allowed = SphericalRectangle::tolerance *
+                                   std::sqrt(std::min(length_squared(t.edge1), length_squared(t.edge2)));
+            for (std::size_t i = 0; i < 6; ++i) {
+                const std::size_t opposite = i % 3;
+                const std::size_t end1 = (opposite + 1 + i / 3) % 3;
+                if (corner(1, end1) == corner(0, first + 1) &&
+                    corner(1, 3 - opposite - end1) == corner(0, first + 2) &&
+                    length(Vec3d(corner(1, opposite)) - fourth) <= allowed)
+                    return MeshRectangle{*spherical, faces, first, opposite, end1};
+            }
+        }
+        return std::nullopt;
+    }
+
+    ShapeSample sample_at(std::uint32_t primitive, const Face& face, const Barycentric& b, float pdf) const
+    {
+        return {triangle_point(face.edges, b), face.clearance, face.normal, pdf, uv(primitive, b)};
+    }
+
     void apply(const Transform& to_world)
     {
         for (Vec3f& p : mesh_.positions) p = to_world.point(p);
@@ -146,6 +235,7 @@ private:
 
     MeshData mesh_; // world space
     DiscreteDistribution choice_;
+    std::optional<MeshRectangle> rectangle_;
     float area_ = 0.f;
 };
 

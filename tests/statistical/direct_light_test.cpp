@@ -59,9 +59,9 @@ double cosine_over_square(const Vec3f& position)
     return to.y / (d * d * d);
 }
 
-void check_all(const Scene& scene, double expected, bool spheres_only, std::uint64_t samples = 10000)
+void check_all(const Scene& scene, double expected, std::uint64_t samples = 10000)
 {
-    std::vector<NamedParams> integrators = direct_light_integrators(spheres_only);
+    std::vector<NamedParams> integrators = direct_light_integrators();
     for (const NamedParams& named : path_tracers(1)) integrators.push_back(named);
     const double level = sidak_level(significance, 6 * integrators.size());
     for (const NamedParams& named : integrators) {
@@ -81,7 +81,7 @@ TEST_CASE("the floor under a sphere light", "[statistical][direct]")
 {
     const Vec3f center(0.f, 2.f, 0.f);
     const Scene scene = with_floor().sphere(center, 0.8f, diffuse(0.5f), Color(10.f)).build();
-    check_all(scene, albedo * 10.0 * factor_of_sphere(center, 0.8), true);
+    check_all(scene, albedo * 10.0 * factor_of_sphere(center, 0.8));
 }
 
 TEST_CASE("the floor under a rectangle light", "[statistical][direct]")
@@ -91,26 +91,26 @@ TEST_CASE("the floor under a rectangle light", "[statistical][direct]")
             .rectangle(Vec3f(0.2f, 1.5f, 0.1f), 2.f, 1.f, Vec3f(0, -1, 0), diffuse(0.5f), Color(3.f))
             .build();
     // The rectangle's width runs along the world's x axis.
-    check_all(scene, albedo * 3.0 * factor_of_rectangle(-0.8, 1.2, -0.4, 0.6, 1.5), false);
+    check_all(scene, albedo * 3.0 * factor_of_rectangle(-0.8, 1.2, -0.4, 0.6, 1.5));
 }
 
 TEST_CASE("the floor under a point light", "[statistical][direct]")
 {
     const Vec3f position(-1.f, 2.f, 1.f);
     const Scene scene = with_floor().point_light(position, Color(6.f)).build();
-    check_all(scene, albedo / pi_d * 6.0 * cosine_over_square(position), true, 10);
+    check_all(scene, albedo / pi_d * 6.0 * cosine_over_square(position), 10);
 }
 
 TEST_CASE("the floor under a directional light", "[statistical][direct]")
 {
     const Scene scene = with_floor().directional_light(Vec3f(2.f, 1.f, 2.f), Color(4.f)).build();
-    check_all(scene, albedo / pi_d * 4.0 / 3.0, true, 10);
+    check_all(scene, albedo / pi_d * 4.0 / 3.0, 10);
 }
 
 TEST_CASE("the floor under an environment", "[statistical][direct]")
 {
     const Scene scene = with_floor().environment(Color(2.f)).build();
-    check_all(scene, albedo * 2.0, true);
+    check_all(scene, albedo * 2.0);
 }
 
 // Lamps hide what is behind them.
@@ -128,8 +128,7 @@ TEST_CASE("the floor under all kinds of light at once", "[statistical][direct]")
     const double ball = factor_of_sphere(sphere, 0.7);
     const double sheet = factor_of_rectangle(0.2, 1.2, 0.0, 0.8, 1.2);
     const double of_points = 4.0 * cosine_over_square(point) + 1.5 * 0.2 / std::sqrt(2.04);
-    check_all(scene, albedo * (5.0 * ball + 3.0 * sheet + 0.8 * (1 - ball - sheet) + of_points / pi_d),
-              false);
+    check_all(scene, albedo * (5.0 * ball + 3.0 * sheet + 0.8 * (1 - ball - sheet) + of_points / pi_d));
 }
 
 TEST_CASE("direct light includes lamps in mirrors", "[statistical][direct]")
@@ -139,7 +138,7 @@ TEST_CASE("direct light includes lamps in mirrors", "[statistical][direct]")
                             .rectangle(Vec3f(0, 2, 0), 4.f, 4.f, Vec3f(0, -1, 0), diffuse(0.f), Color(3.f))
                             .build();
     const ChooseRay at_the_mirror = ray_to(Vec3f(0.5f, 1.f, 0.f), Vec3f(0.f));
-    for (const NamedParams& named : direct_light_integrators(false)) {
+    for (const NamedParams& named : direct_light_integrators()) {
         INFO(named.name);
         const auto integrator = make_integrator(named.params, scene);
         CHECK(estimate(scene, *integrator, at_the_mirror, 10, 1).mean() == Approx(3.0));

@@ -31,7 +31,7 @@ double polygon_irradiance(const std::vector<Vec3d>& corners, double radiance)
 }
 
 // The chi-square tests of this file.
-const double chi2_level = sidak_level(significance, 9);
+const double chi2_level = sidak_level(significance, 13);
 
 DirectionSampler directions(const Lamp& lamp, const Vec3f& from, Measure measure)
 {
@@ -120,7 +120,7 @@ void check_samples(const std::string& name, const Lamp& lamp, const Vec3f& from,
 void check_irradiance(const std::string& name, const Lamp& lamp, double expected, Measure measure,
                       const Vec3f& from = Vec3f(0.f))
 {
-    constexpr std::size_t tests = 13; // calls of this function
+    constexpr std::size_t tests = 15; // calls of this function
     const auto estimate = [&](std::uint64_t samples, std::uint64_t seed) {
         TestRandom random(seed);
         MeanAndVariance irradiance;
@@ -167,6 +167,14 @@ TEST_CASE("directions to area lights follow their density", "[statistical][emitt
     const Lamp textured(panel(Vec3f(0, 1.5f, 0), 1.0, 2.0, Vec3f(0, -1, 0)), two_tone);
     check_flat_directions("textured rectangle", textured, Vec3d(0, 1.5, 0), Vec3d(1, 0, 0), Vec3d(0, 0, 2),
                           Vec3f(0.1f, 0, 0.2f));
+    check_flat_directions("rectangle from nearby", tilted, Vec3d(center), width * 2.0, height,
+                          center + normal * 0.05f + Vec3f(width) * 0.3f);
+    check_flat_directions("rectangle from beside it", tilted, Vec3d(center), width * 2.0, height,
+                          center + normal * 0.1f + Vec3f(width) * 1.1f);
+    check_flat_directions("rectangle from afar", tilted, Vec3d(center), width * 2.0, height,
+                          Vec3f(0.5f, -1, 0));
+    check_flat_directions("rectangle of triangles", white(mesh(even_sheet)), Vec3d(0, 2, 0), Vec3d(2, 0, 0),
+                          Vec3d(0, 0, 2), Vec3f(0.3f, 1.5f, -0.9f));
     check_flat_directions("mesh", white(mesh(uneven_sheet)), Vec3d(0, 2, 0.5), Vec3d(2, 0, 0), Vec3d(0, 0, 2),
                           Vec3f(0.f));
 }
@@ -182,6 +190,8 @@ TEST_CASE("samples of area lights are what a ray in their direction sees", "[uni
     const Lamp tilted(panel(Vec3f(0.5f, 2, 0), 2.0, 1.0, Vec3f(0.3f, -1, 0)), two_tone);
     check_samples("rectangle", tilted, Vec3f(0.f), Measure::area);
     check_samples("rectangle where a solid angle was asked for", tilted, Vec3f(0.f), Measure::solid_angle);
+    check_samples("rectangle from nearby", tilted, Vec3f(0.5f, 1.5f, 0.2f), Measure::best);
+    check_samples("rectangle of triangles", white(mesh(even_sheet)), Vec3f(0.3f, 1.5f, -0.9f), Measure::best);
     check_samples("mesh", white(mesh(bent_sheet)), Vec3f(0.f), Measure::best);
 }
 
@@ -203,6 +213,11 @@ TEST_CASE("light of area emitters arrives in its closed form", "[statistical][em
     check_irradiance("rectangle", white(panel(Vec3f(0, 2, 0.5f), 2.0, 2.0, Vec3f(0, -1, 0))), sheet,
                      Measure::best);
     check_irradiance("mesh", white(mesh(uneven_sheet)), sheet, Measure::area);
+    const double near_sheet = pi_d * 2.0 * 4.0 * corner_factor(1, 1, 0.01);
+    check_irradiance("rectangle from nearby", white(panel(Vec3f(0, 0.01f, 0), 2.0, 2.0, Vec3f(0, -1, 0))),
+                     near_sheet, Measure::best);
+    check_irradiance("rectangle of triangles from nearby", white(mesh(even_sheet)), near_sheet, Measure::best,
+                     Vec3f(0, 1.99f, 0));
     const double bent = polygon_irradiance({{-1, 2, -1}, {1, 2, -1}, {1, 2.5, 1}}, 2.0) +
                         polygon_irradiance({{-1, 2, -1}, {1, 2.5, 1}, {-0.5, 1.5, 1.5}}, 2.0);
     check_irradiance("bent mesh", white(mesh(bent_sheet)), bent, Measure::best);

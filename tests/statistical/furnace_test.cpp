@@ -54,7 +54,7 @@ TEST_CASE("absorbing emitters show what they emit and nothing else", "[statistic
 {
     const Scene room = LittleScene().room(diffuse(float(albedo)), Color(1.f)).absorbing_emitters().build();
     check_all(path_tracers(-1), room, into_the_room, 1.0, 100, significance);
-    check_all(direct_light_integrators(false), room, into_the_room, 1.0, 100, significance);
+    check_all(direct_light_integrators(), room, into_the_room, 1.0, 100, significance);
 }
 
 TEST_CASE("a convex diffuse body in a uniform environment shows its albedo", "[statistical][furnace]")
@@ -63,7 +63,7 @@ TEST_CASE("a convex diffuse body in a uniform environment shows its albedo", "[s
     const ChooseRay rays = rays_around(Vec3f(0.f, 0.f, 5.f), Vec3f(0.f), 0.4f);
     const double level = sidak_level(significance, 40);
     check_all(path_tracers(-1), scene, rays, 1.4, 5000, level);
-    check_all(direct_light_integrators(true), scene, rays, 1.4, 5000, level);
+    check_all(direct_light_integrators(), scene, rays, 1.4, 5000, level);
 }
 
 // Nothing is absorbed, so every ray, refracted and totally reflected inside as often as it likes, brings the same

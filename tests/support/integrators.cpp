@@ -77,13 +77,12 @@ std::vector<NamedParams> path_tracers(int max_depth, bool with_area)
     return result;
 }
 
-std::vector<NamedParams> direct_light_integrators(bool with_solid_angle)
+std::vector<NamedParams> direct_light_integrators()
 {
     std::vector<NamedParams> result;
     for (const char* type : {"direct", "direct_ems", "direct_mats", "direct_mis", "direct_whitted"})
         result.push_back({type, integrator_params(type)});
-    std::vector<std::string> measures{"area", "hemisphere", "bsdf"};
-    if (with_solid_angle) measures.push_back("solid-angle");
+    const std::vector<std::string> measures{"area", "hemisphere", "bsdf", "solid-angle"};
     for (const std::string& measure : measures) {
         result.push_back({"direct by " + measure,
                           integrator_params("direct").string("measure", measure).integer("nSamples", 2)});
@@ -104,9 +103,8 @@ std::vector<NamedParams> direct_light_integrators(bool with_solid_angle)
                                                           .string("measure", "hemisphere")
                                                           .string("warp-type", "uniform-hemisphere")});
     result.push_back({"path_ems of one bounce", integrator_params("path_ems").integer("maxDepth", 1)});
-    if (with_solid_angle)
-        result.push_back({"explicit path of one bounce, by solid angle",
-                          configured_path(true, "max-depth", 1).string("direct-measure", "solid-angle")});
+    result.push_back({"explicit path of one bounce, by solid angle",
+                      configured_path(true, "max-depth", 1).string("direct-measure", "solid-angle")});
     return result;
 }
 

@@ -25,8 +25,8 @@ struct NamedParams {
 // points by area are left out where `with_area` is false: between walls that touch their variance is infinite, and
 // no t test holds.
 std::vector<NamedParams> path_tracers(int max_depth, bool with_area = true);
-// Every way to compute emission and direct light. with_solid_angle: all lights are spheres.
-std::vector<NamedParams> direct_light_integrators(bool with_solid_angle);
+// Every way to compute emission and direct light of lights that can be sampled by solid angle.
+std::vector<NamedParams> direct_light_integrators();
 
 // The configurable path tracer.
 ParamsBuilder configured_path(bool is_explicit, const std::string& termination, double termination_param);

@@ -36,6 +36,7 @@ public:
         scene_ = std::make_unique<Scene>(std::move(objects), std::vector<std::unique_ptr<Emitter>>());
     }
 
+    const Scene& scene() const { return *scene_; }
     const Emitter& emitter() const { return *scene_->emitters()[0]; }
 
     // What a ray sees of the lamp.
@@ -86,6 +87,9 @@ inline const std::string bent_sheet =
 // The rectangle [-1, 1] x [-0.5, 1.5] at y = 2, facing down, of four triangles of very different sizes.
 inline const std::string uneven_sheet = "v -1 2 -0.5\nv 1 2 -0.5\nv 1 2 1.5\nv -1 2 1.5\nv -0.9 2 1\n"
                                         "f 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n";
+
+// The rectangle [-1, 1] x [-1, 1] at y = 2, facing down, of two triangles.
+inline const std::string even_sheet = "v -1 2 -1\nv 1 2 -1\nv 1 2 1\nv -1 2 1\nf 1 2 3\nf 1 3 4\n";
 
 inline void two_tone(ParamsBuilder& params)
 {

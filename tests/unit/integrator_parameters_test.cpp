@@ -4,6 +4,7 @@
 
 #include "support/catch.h"
 #include "support/integrators.h"
+#include "support/lamp.h"
 
 #include "plumb/error.h"
 
@@ -149,13 +150,20 @@ TEST_CASE("the integrators of direct light check their parameters", "[unit][inte
     CHECK(integrator_complaints(integrator_params("simple").point("position", Vec3f(1.f))).size() == 1);
 }
 
-TEST_CASE("solid-angle sampling of anything but spheres is refused when the scene is known",
+TEST_CASE("solid-angle sampling of meshes and parallelograms is refused when the scene is known",
           "[unit][integrator]")
 {
-    LittleScene spheres, rectangles;
-    spheres.sphere(Vec3f(0.f), 1.f, diffuse(0.5f), Color(1.f)).environment(Color(1.f));
-    rectangles.rectangle(Vec3f(0.f), 1.f, 1.f, Vec3f(0, 1, 0), diffuse(0.5f), Color(1.f));
-    const Scene good = spheres.build(), bad = rectangles.build();
+    LittleScene little;
+    little.sphere(Vec3f(0.f), 1.f, diffuse(0.5f), Color(1.f)).environment(Color(1.f));
+    little.rectangle(Vec3f(0.f), 1.f, 1.f, Vec3f(0, 1, 0), diffuse(0.5f), Color(1.f));
+    const Scene good = little.build();
+    const Lamp rectangle_of_triangles = white(mesh(even_sheet)), bent = white(mesh(bent_sheet));
+    const Lamp parallelogram = white(
+        ParamsBuilder("shape", "rectangle")
+            .transform("toWorld",
+                       *Transform::from_rows({{{1, 1, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}}))
+            .build<Rectangle, Shape>());
+    const Scene& bad = bent.scene();
     const ParamsBuilder asking[] = {
         configured_path(true, "max-depth", 1).string("direct-measure", "solid-angle"),
         integrator_params("direct").string("measure", "solid-angle"),
@@ -163,13 +171,15 @@ TEST_CASE("solid-angle sampling of anything but spheres is refused when the scen
     };
     for (const ParamsBuilder& params : asking) {
         CHECK_NOTHROW(make_integrator(params, good));
+        CHECK_NOTHROW(make_integrator(params, rectangle_of_triangles.scene()));
+        CHECK_THROWS_AS(make_integrator(params, parallelogram.scene()), Error);
         CHECK_THROWS_AS(make_integrator(params, bad), Error);
     }
     try {
         make_integrator(asking[0], bad);
     } catch (const Error& error) {
         CHECK(std::string(error.what()) ==
-              "direct-measure cannot be 'solid-angle': the light of object 0 can only "
+              "direct-measure cannot be 'solid-angle': the light of lamp can only "
               "be sampled by area; use 'area'");
     }
     // Implicit mode checks the word and does not use it.

@@ -262,7 +262,9 @@ TEST_CASE("an integrator that cannot render the scene is an error at its place",
                "<string name='termination' value='max-depth'/>"
                "<string name='direct-measure' value='solid-angle'/></integrator>" +
                camera +
-               "<shape type='rectangle'><emitter type='area'><color name='radiance' value='1 1 1'/>"
+               "<shape type='rectangle'><transform name='toWorld'><matrix value='1 1 0 0  0 1 0 0  0 0 1 0  "
+               "0 0 0 1'/>"
+               "</transform><emitter type='area'><color name='radiance' value='1 1 1'/>"
                "</emitter></shape></scene>");
     CHECK_THAT(text, ContainsSubstring("scene.xml:2:1: error: ") && ContainsSubstring("solid"));
 }

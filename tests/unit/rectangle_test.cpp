@@ -122,6 +122,81 @@ TEST_CASE("toWorld is applied last and may shear or mirror a rectangle", "[unit]
     CHECK(mirrored(Vec3d(-1, 1, -1)) == Vec3f(0, 0, -1));
 }
 
+// The part of the solid angle between the planes x = 0, y = 0 and the corner (x, y, z) of a rectangle at height z.
+double corner_angle(double x, double y, double z)
+{
+    return std::atan2(x * y, z * std::sqrt(x * x + y * y + z * z));
+}
+
+double solid_angle(double x0, double x1, double y0, double y1, double z)
+{
+    return corner_angle(x1, y1, z) - corner_angle(x0, y1, z) - corner_angle(x1, y0, z) +
+           corner_angle(x0, y0, z);
+}
+
+TEST_CASE("a rectangle knows its solid angle", "[unit][shape]")
+{
+    // From above it, beside it, close to it and in its corners, but not behind it.
+    TestRandom random(5);
+    int sampled = 0;
+    for (int i = 0; i < 3000; ++i) {
+        const auto power = [&](double low, double high) { return std::pow(10.0, random.between(low, high)); };
+        const double width = power(-2, 2), height = power(-2, 2), z = power(-3, 1);
+        const Vec3f center(Vec3d(random.between(-1, 1) * width, random.between(-1, 1) * height, z));
+        const auto shape = rectangle()
+                               .point("center", center)
+                               .number("width", width)
+                               .number("height", height)
+                               .vector("normal", Vec3f(0, 0, -1))
+                               .build<Rectangle, Shape>();
+        CHECK(shape->has_solid_angle());
+        const Vec3f from(0.f);
+        const Vec2f u = random.next_2d();
+        const auto sample = shape->sample_solid_angle(from, u);
+        const auto pdf = shape->solid_angle_pdf(from);
+        REQUIRE(sample.has_value() == pdf.has_value());
+        if (!sample) continue;
+        ++sampled;
+        CAPTURE(width, height, center.x, center.y, center.z, u.x, u.y);
+        CHECK(sample->pdf == *pdf);
+        const Vec3f low = shape->bounds().min, high = shape->bounds().max;
+        const double whole = solid_angle(low.x, high.x, low.y, high.y, center.z);
+        CHECK(1.0 / *pdf == Approx(whole).epsilon(1e-6));
+
+        // The point is where its uv say.
+        CHECK(length(sample->position - shape->sample_area(0.0, sample->uv).position) <=
+              1e-6f * length(high - low));
+        CHECK(sample->normal == Vec3f(0, 0, -1));
+    }
+    CHECK(sampled > 1000);
+}
+
+TEST_CASE("where the solid angle of a rectangle is not sampled", "[unit][shape]")
+{
+    const auto square = rectangle().build<Rectangle, Shape>();
+    const auto samples = [&](const Vec3f& from) {
+        const bool has_pdf = square->solid_angle_pdf(from).has_value();
+        CHECK(square->sample_solid_angle(from, Vec2f(0.3f)).has_value() == has_pdf);
+        return has_pdf;
+    };
+    CHECK(samples(Vec3f(0, 0, 1)));
+    CHECK(samples(Vec3f(0, 0, 1e-6f)));
+    CHECK(samples(Vec3f(1.5f, 0.7f, 0.1f)));
+    CHECK_FALSE(samples(Vec3f(0, 0, -1))); // behind
+    CHECK_FALSE(samples(Vec3f(0, 0, 0)));  // in it, and beside it in its plane
+    CHECK_FALSE(samples(Vec3f(0.7f, 0, 0)));
+    CHECK_FALSE(samples(Vec3f(0, 0, 10))); // far away
+    CHECK(square->sample_solid_angle(Vec3f(0, 0, 1), Vec2f(0.5f))->position == Vec3f(0.f));
+
+    const auto sheared =
+        rectangle()
+            .transform("toWorld",
+                       *Transform::from_rows({{{1, 0.001, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}}))
+            .build<Rectangle, Shape>();
+    CHECK_FALSE(sheared->has_solid_angle());
+    CHECK_FALSE(sheared->sample_solid_angle(Vec3f(0, 0, 1), Vec2f(0.5f)));
+}
+
 TEST_CASE("bad rectangles are errors", "[unit][shape]")
 {
     CHECK_THAT((rectangle().number("width", 0).complaints<Rectangle, Shape>().at(0)),

@@ -61,9 +61,46 @@ TEST_CASE("a mesh hands its triangles on and knows its size", "[unit][shape]")
     CHECK(mesh->area() == Approx(2.0 * std::sqrt(5.0)));
     CHECK(mesh->bounds().min == Vec3f(0, 0, 0));
     CHECK(mesh->bounds().max == Vec3f(2, 2, 1));
-    CHECK_FALSE(mesh->has_solid_angle());
-    CHECK_FALSE(mesh->sample_solid_angle(Vec3f(0, 0, 5), Vec2f(0.5f)));
-    CHECK_FALSE(mesh->solid_angle_pdf(Vec3f(0, 0, 5)));
+}
+
+TEST_CASE("a mesh of two triangles that make a rectangle is sampled by solid angle", "[unit][shape]")
+{
+    Meshes meshes;
+    const std::string corners = "v 1 0 0\nv 3 0 0\nv 3 1 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n";
+    // All orders of corners, and a mirrored second triangle, whose front the normals decide.
+    const char* second[] = {"1/1 3/3 4/4", "3/3 4/4 1/1", "4/4 1/1 3/3"};
+    for (const char* first : {"1/1 2/2 3/3", "2/2 3/3 1/1", "3/3 1/1 2/2"})
+        for (const char* other : second) {
+            const auto mesh = meshes.read(corners + "f " + first + "\nf " + other + "\n");
+            CAPTURE(first, other);
+            REQUIRE(mesh->has_solid_angle());
+            TestRandom random(8);
+            for (int i = 0; i < 50; ++i) {
+                const Vec3f from(2.f + random.next_1d(), random.next_1d(), 0.1f + random.next_1d());
+                const auto sample = mesh->sample_solid_angle(from, random.next_2d());
+                REQUIRE(sample);
+                CHECK(sample->pdf == *mesh->solid_angle_pdf(from));
+                CHECK(sample->normal == Vec3f(0, 0, 1));
+                const Vec2f uv((sample->position.x - 1.f) * 0.5f, sample->position.y);
+                CHECK((sample->uv - uv).length() < 1e-6f);
+                CHECK((uv.x >= 0.f && uv.x <= 1.f && uv.y >= 0.f && uv.y <= 1.f));
+            }
+        }
+    const std::string normals = "vn 0 0 1\n";
+    CHECK(meshes.read(corners + normals + "f 1//1 2//1 3//1\nf 1//1 4//1 3//1\n")->has_solid_angle());
+
+    for (const char* faces :
+         {"f 1 2 3\n", "f 1 2 3\nf 2 3 4\n", "f 1 2 3\nf 1 4 3\n", "f 1 2 3\nf 1 3 2\n"}) {
+        const auto mesh = meshes.read(corners + faces);
+        CAPTURE(faces);
+        CHECK_FALSE(mesh->has_solid_angle());
+        CHECK_FALSE(mesh->sample_solid_angle(Vec3f(2, 0.5f, 1), Vec2f(0.5f)));
+        CHECK_FALSE(mesh->solid_angle_pdf(Vec3f(2, 0.5f, 1)));
+    }
+    // Not flat, a kite, a parallelogram.
+    for (const char* fourth : {"v 0 1 0.1\n", "v -0.28 0.96 0\n", "v 0.1 1 0\n"})
+        CHECK_FALSE(meshes.read(std::string("v 0 0 0\nv 1 0 0\nv 1 1 0\n") + fourth + "f 1 2 3 4\n")
+                        ->has_solid_angle());
 }
 
 TEST_CASE("without normals and uvs a mesh is faceted and uv are barycentric", "[unit][shape]")
