@@ -25,7 +25,7 @@ public:
         : job_(job),
           scene_(job.scene),
           size_(length(job.scene.bounds().size())),
-          sampler_(job.sampler->clone())
+          sampler_(job.sampler->clone(samples))
     {}
 
     std::vector<Doubt> doubts()

@@ -12,6 +12,8 @@
 //     plumb:inputHash         of all these, and of what the command line and the dialect make of them
 //     plumb:definitions       -D, in the order of the names; only if given
 //     plumb:integrator, plumb:sampler   type names
+//     plumb:samplerTotal      how many samples the sampler spreads over a pixel; only if its points depend on that
+//     plumb:errorBars         "upper bounds": of a sampler whose samples are not independent; else they are estimates
 //     plumb:samplesPerPixel   the smallest number that a pixel has
 //     plumb:samplesTaken      which samples the pixels have (SampleSet::text); only if not all have the same number
 //     plumb:stop              what ended the rendering before the number of samples that was asked for; only if so

@@ -77,6 +77,7 @@ std::vector<std::string> sample_changes(const Metadata& then, const Metadata& no
         {"plumb:definitions", "what --define says"},
         {"plumb:integrator", "the integrator"},
         {"plumb:sampler", "the sampler"},
+        {"plumb:samplerTotal", "the total number of samples, on which those of the sampler depend,"},
         {"plumb:seed", "the seed"},
         {"plumb:dialect", "the dialect"},
         {"plumb:emitters", "what emitters do"},

@@ -48,8 +48,8 @@ void log_summary(const Report& report, const Options& options)
                           count_text(evidence.taken.count()), duration_text(report.render_seconds),
                           rate_text(report.rays.total(), report.render_seconds)));
     if (const auto& noise = evidence.noise)
-        print_log(fmt::format("noise: rmse {:.3g} (95 % interval {:.3g} to {:.3g})", noise->rmse, noise->low,
-                              noise->high));
+        print_log(fmt::format("noise: rmse {}{:.3g} (95 % interval {:.3g} to {:.3g})",
+                              report.noise_is_bound ? "at most " : "", noise->rmse, noise->low, noise->high));
     if (!evidence.ledger.biases.empty())
         print_log(fmt::format("biased: {}", list_text(evidence.ledger.biases)));
     if (evidence.left_out.count == 0) return;

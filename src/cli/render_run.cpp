@@ -41,7 +41,13 @@ StopRules stop_rules(const Options& options, const LoadedScene& scene)
     StopRules rules{render_samples(scene.job, options.render), options.stop.seconds,
                     options.stop.relative_error};
     const bool other_rule = rules.seconds || rules.relative_error;
-    if (other_rule && !options.load.samples_per_pixel) rules.samples_per_pixel = film_max_samples;
+    if (!other_rule || options.load.samples_per_pixel) return rules;
+    if (scene.job.sampler->depends_on_total())
+        throw Error(
+            fmt::format("the sampler '{}' must know how many samples a pixel gets in all: with --time and "
+                        "--target-error give the most by --spp, or take --sampler sobol",
+                        scene.sampler));
+    rules.samples_per_pixel = film_max_samples;
     return rules;
 }
 

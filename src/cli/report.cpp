@@ -98,6 +98,7 @@ void write_evidence(JsonWriter& json, const Report& report)
     json.number("rmse", noise->rmse);
     json.number("low", noise->low);
     json.number("high", noise->high);
+    json.boolean("upper_bound", report.noise_is_bound);
     json.end_object();
 }
 
@@ -112,6 +113,7 @@ Report make_report(const Options& options, const LoadedScene& scene, const Rende
     report.dialect = scene.dialect;
     report.integrator = scene.integrator;
     report.sampler = scene.sampler;
+    report.noise_is_bound = !scene.job.sampler->is_independent();
     report.seed = options.render.seed;
     report.resolution = scene.job.camera->resolution();
     report.crop = options.render.crop;

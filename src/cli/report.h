@@ -14,6 +14,7 @@ struct Report {
     Dialect dialect;
     std::string integrator;
     std::string sampler;
+    bool noise_is_bound = false; // for the sampler's samples are not independent
     std::uint64_t seed = 0;
     Vec2i resolution;
     std::optional<PixelRect> crop;

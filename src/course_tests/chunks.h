@@ -33,7 +33,7 @@ enum class Purpose { first_run, repetition, direction };
 class Stream {
 public:
     Stream(const Sampler& prototype, std::uint64_t seed, std::size_t test_index, Purpose purpose)
-        : sampler_(prototype.clone()),
+        : sampler_(prototype.clone(prototype.samples_per_pixel())),
           seed_(seed),
           key_(static_cast<int>(test_index), static_cast<int>(purpose))
     {}

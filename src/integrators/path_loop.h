@@ -99,6 +99,7 @@ Color trace_path(const Technique& technique, Tracer& tracer, Sampler& sampler, R
             return end("an emitter absorbs the path"), result;
         if (bounces == technique.max_depth()) return end("the path has its largest depth"), result;
 
+        sampler.start_vertex(bounces);
         const Vertex vertex(*hit, ray.direction);
         // The next direction before the shadow ray: the processor works on both at once.
         const std::optional<BsdfSample> next = technique.scatter(sampler, vertex);

@@ -4,13 +4,17 @@
 
 namespace plumb {
 
-std::uint32_t Sampler::next_word_across_blocks()
+std::uint32_t Sampler::next_word_across_blocks(Cursor& from)
 {
-    if (used_ == block_.size()) {
+    if (from.next == from.end) {
         fill_block();
-        used_ = 0;
+        ++block_number_;
+        if (order_ == Order::as_drawn)
+            cursors_ = {{{0, block_.size()}, {}}};
+        else
+            cursors_ = {{{0, words_of_a_kind}, {words_of_a_kind, 2 * words_of_a_kind}}};
     }
-    return block_[used_++];
+    return block_[from.next++];
 }
 
 } // namespace plumb

@@ -49,7 +49,8 @@ SampleTaken take_sample(const RenderJob& job, Tracer& tracer, Sampler& sampler, 
 
 // What one thread needs and gathers.
 struct Worker {
-    Worker(const RenderJob& job) : tracer(job.scene), sampler(job.sampler->clone()) {}
+    Worker(const RenderJob& job, std::uint64_t total) : tracer(job.scene), sampler(job.sampler->clone(total))
+    {}
     Tracer tracer;
     std::unique_ptr<Sampler> sampler;
     LeftOut left_out;
@@ -95,6 +96,16 @@ std::vector<SampleBlock> cut_into_work(const SampleSet& set, std::uint64_t first
             work.push_back({tile, slice.first, slice.last});
     }
     return work;
+}
+
+// Throws Error if the sampler cannot take the samples before `end`.
+void check_total(const RenderJob& job, std::uint64_t end, std::uint64_t total)
+{
+    if (job.sampler->depends_on_total() && end > total)
+        throw Error(
+            fmt::format("sample {} is asked for, but the sampler spreads a total of {} samples over a "
+                        "pixel and has no others; give the total with --spp",
+                        end - 1, total));
 }
 
 RenderState nothing_taken(const RenderJob& job, const RenderOptions& options)
@@ -174,8 +185,10 @@ bool Rendering::take(const SampleSet& wanted, const ProgressReport& progress, co
         first = std::min(first, block.first);
         end = std::max(end, block.last);
     }
+    const std::uint64_t total = render_samples(job_, options_);
+    check_total(job_, end, total);
     Reporter reporter(progress, (wanted & state_.taken).count(), wanted.count());
-    oneapi::tbb::enumerable_thread_specific<Worker> workers([&] { return Worker(job_); });
+    oneapi::tbb::enumerable_thread_specific<Worker> workers([&] { return Worker(job_, total); });
     std::atomic<bool> paused = false;
 
     // How much of the block was done: its first rows.
@@ -234,10 +247,12 @@ ReplayedSample replay(const RenderJob& job, std::uint64_t seed, Vec2i pixel, std
     if (pixel.x < 0 || pixel.y < 0 || pixel.x >= size.x || pixel.y >= size.y)
         throw Error(fmt::format("pixel {},{} is not inside the picture of {}x{} pixels", pixel.x, pixel.y,
                                 size.x, size.y));
+    const std::uint64_t total = job.sampler->samples_per_pixel();
+    check_total(job, sample_index + 1, total);
     const FlushDenormals flush;
     ReplayedSample replayed;
     Tracer tracer(job.scene, &replayed.log);
-    const std::unique_ptr<Sampler> sampler = job.sampler->clone();
+    const std::unique_ptr<Sampler> sampler = job.sampler->clone(total);
     const SampleTaken sample = take_sample(job, tracer, *sampler, seed, pixel, sample_index);
     Film judge({pixel.x, pixel.y, 1, 1}, size.x, size.y);
     replayed.value = sample.radiance;

@@ -3,8 +3,7 @@
 // [1] Salmon, Moraes, Dror and Shaw 2011, "Parallel Random Numbers: As Easy as 1, 2, 3", SC'11.
 
 #include "interfaces/plugin.h"
-
-#include "plumb/sampler.h"
+#include "samplers/hashed.h"
 
 #ifdef __AVX2__
 #include <immintrin.h>
@@ -54,20 +53,21 @@ inline Counters philox_round(const Counters& c, std::uint32_t key_low, std::uint
 class IndependentSampler final : public Sampler {
 public:
     explicit IndependentSampler(const Params& params)
-        : samples_per_pixel_(static_cast<std::uint64_t>(params.integer(
-              "sampleCount", 1, Range::closed(1.0, static_cast<double>(max_samples_per_pixel)))))
+        : Sampler(Order::as_drawn), samples_per_pixel_(sample_count(params))
     {}
 
-    std::unique_ptr<Sampler> clone() const override { return std::make_unique<IndependentSampler>(*this); }
+    std::unique_ptr<Sampler> clone(std::uint64_t) const override
+    {
+        return std::make_unique<IndependentSampler>(*this);
+    }
     std::uint64_t samples_per_pixel() const override { return samples_per_pixel_; }
 
     void start(std::uint64_t seed, Vec2i pixel, std::uint64_t sample_index) override
     {
         seed_ = seed;
-        first_counter_ = 0;
         pixel_ = static_cast<std::uint64_t>(pixel.x) | static_cast<std::uint64_t>(pixel.y) << 16;
         sample_index_ = sample_index;
-        discard_block();
+        begin_sample();
     }
 
 private:
@@ -75,10 +75,9 @@ private:
     void fill_block() override
     {
         const auto all = [](std::uint64_t x) { return Lanes{x, x, x, x}; };
-        const Lanes index = Lanes{0, 1, 2, 3} + first_counter_;
+        const Lanes index = Lanes{0, 1, 2, 3} + 8 * std::uint64_t{block_number()};
         Counters first{{index, all(pixel_), all(sample_index_), all(sample_index_ >> 32)}};
         Counters second{{index + 4, all(pixel_), all(sample_index_), all(sample_index_ >> 32)}};
-        first_counter_ += 8;
         auto key_low = static_cast<std::uint32_t>(seed_);
         auto key_high = static_cast<std::uint32_t>(seed_ >> 32);
         for (int round = 0; round < 10; ++round) {
@@ -97,7 +96,6 @@ private:
 
     std::uint64_t samples_per_pixel_;
     std::uint64_t seed_ = 0;
-    std::uint64_t first_counter_ = 0; // of the next block, within the sample
     std::uint64_t pixel_ = 0;
     std::uint64_t sample_index_ = 0;
 };

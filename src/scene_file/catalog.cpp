@@ -63,6 +63,8 @@ constexpr Entry<Camera> cameras[] = {
 
 constexpr Entry<Sampler> samplers[] = {
     {"independent", build<class IndependentSampler>, "IndependentSampler"},
+    {"sobol", build<class SobolSampler>, "SobolSampler"},
+    {"stratified", build<class StratifiedSampler>, "StratifiedSampler"},
 };
 
 constexpr Entry<Filter> filters[] = {

@@ -22,9 +22,11 @@ namespace {
 constexpr int width = 37;
 constexpr int height = 29;
 
-std::string scene_with(const std::string& integrator, const std::string& filter, const std::string& things)
+std::string scene_with(const std::string& integrator, const std::string& sampler, const std::string& filter,
+                       const std::string& things)
 {
-    return "<scene dialect='plumb'><integrator type='" + integrator + "'/><camera type='perspective'>" +
+    return "<scene dialect='plumb'><integrator type='" + integrator + "'/><sampler type='" + sampler +
+           "'/><camera type='perspective'>" +
            "<integer name='width' value='37'/><integer name='height' value='29'/><float name='fov' "
            "value='50'/>" +
            "<float name='lensRadius' value='0.05'/><float name='focalDistance' value='4'/><transform "
@@ -43,13 +45,13 @@ const std::string ball = "<mesh type='sphere'><point name='center' value='-0.5,0
 
 // Glass with a filter of negative lobes; gloss and a point light; samples so bright that their squares are kept apart.
 const std::string scenes[] = {
-    scene_with("path_mis", "mitchell", lamp + ball + "<bsdf type='dielectric'/></mesh>"),
-    scene_with("path_nee", "gaussian",
+    scene_with("path_mis", "sobol", "mitchell", lamp + ball + "<bsdf type='dielectric'/></mesh>"),
+    scene_with("path_nee", "independent", "gaussian",
                lamp + ball +
                    "<bsdf type='roughconductor'/></mesh><emitter type='pointlight'><point name='position' "
                    "value='-3,3,2'/><color name='radiance' value='9,9,9'/></emitter>"),
     scene_with(
-        "path", "tent",
+        "path", "stratified", "tent",
         ball + "<bsdf type='mirror'/></mesh><mesh type='sphere'><point name='center' value='1,1,1'/><float "
                "name='radius' value='0.5'/><emitter type='area'><color name='radiance' "
                "value='900000,8,7'/></emitter></mesh>"),

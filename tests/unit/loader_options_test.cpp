@@ -57,7 +57,7 @@ TEST_CASE("mistakes on the command line have no place in a file", "[unit][loader
     const std::string xml = start + "</scene>";
     LoadOptions options;
     options.integrator = "path_miss";
-    options.sampler = "sobol";
+    options.sampler = "sobl";
     options.samples_per_pixel = 0;
     options.resolution = Vec2i(0, 70000);
     options.definitions["x"] = "1";
@@ -65,7 +65,7 @@ TEST_CASE("mistakes on the command line have no place in a file", "[unit][loader
     CHECK_THAT(
         text,
         ContainsSubstring("error: --integrator path_miss: unknown integrator 'path_miss'; did you mean") &&
-            ContainsSubstring("error: --sampler sobol: unknown sampler 'sobol'; known is independent") &&
+            ContainsSubstring("error: --sampler sobl: unknown sampler 'sobl'; did you mean 'sobol'?") &&
             ContainsSubstring("error: width must be in [1, 65535], not 0") &&
             ContainsSubstring("error: height must be in [1, 65535], not 70000") &&
             ContainsSubstring("error: -D x=1: no file of this scene uses $x"));

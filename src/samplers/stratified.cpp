@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+
+// [1] Kensler 2013, "Correlated Multi-Jittered Sampling", Pixar Technical Memo 13-01
+
+#include "interfaces/plugin.h"
+#include "samplers/hashed.h"
+
+#include <cmath>
+
+namespace plumb {
+namespace {
+
+// Where a number goes in a random order of the numbers below `count`, [1], section 3: a bijection for each key.
+std::uint32_t permute(std::uint32_t i, std::uint32_t count, std::uint32_t key)
+{
+    std::uint32_t mask = count - 1;
+    for (int shift = 1; shift < 32; shift *= 2) mask |= mask >> shift;
+    do {
+        i ^= key;
+        i *= 0xE170893Du;
+        i ^= key >> 16;
+        i ^= (i & mask) >> 4;
+        i ^= key >> 8;
+        i *= 0x0929EB3Fu;
+        i ^= key >> 23;
+        i ^= (i & mask) >> 1;
+        i *= 1 | key >> 27;
+        i *= 0x6935FA69u;
+        i ^= (i & mask) >> 11;
+        i *= 0x74DCB303u;
+        i ^= (i & mask) >> 2;
+        i *= 0x9E501CC3u;
+        i ^= (i & mask) >> 2;
+        i *= 0xC860A3DFu;
+        i &= mask;
+        i ^= i >> 5;
+    } while (i >= count);
+    return i;
+}
+
+} // namespace
+
+/// Jittered strata: each pair of numbers that a path draws has a grid of as many cells as there are samples, and each
+/// single number as many intervals; each sample of the pixel is in another cell, in random orders of their own.
+///
+/// The grid is nearly square; if their number has no such factors, a few cells stay empty. The points depend on the total
+/// number of samples: a picture is not gone on with to more samples, nor are parts of pictures with different numbers
+/// merged, and --time and --target-error ask for --spp beside them (`sobol` needs none of this, and has less noise). The
+/// samples of a pixel are not independent: error bars, made as if they were, are upper bounds.
+///
+///     sampleCount   integer   samples per pixel, from 1 to 2^26   (default 1)
+///
+///         <sampler type="stratified">
+///             <integer name="sampleCount" value="64"/>
+///         </sampler>
+class StratifiedSampler final : public Sampler {
+public:
+    explicit StratifiedSampler(const Params& params)
+        : Sampler(Order::by_vertex), samples_per_pixel_(sample_count(params))
+    {
+        spread(samples_per_pixel_);
+    }
+
+    std::unique_ptr<Sampler> clone(std::uint64_t total) const override
+    {
+        auto copy = std::make_unique<StratifiedSampler>(*this);
+        copy->spread(total);
+        return copy;
+    }
+    std::uint64_t samples_per_pixel() const override { return samples_per_pixel_; }
+    bool depends_on_total() const override { return true; }
+    bool is_independent() const override { return false; }
+
+    void start(std::uint64_t seed, Vec2i pixel, std::uint64_t sample_index) override
+    {
+        index_ = static_cast<std::uint32_t>(sample_index);
+        strata_key_ = pixel_key(seed, pixel);
+        jitter_key_ = random_word(strata_key_ ^ 1, sample_index);
+        begin_sample();
+    }
+
+private:
+    void spread(std::uint64_t total)
+    {
+        total_ = static_cast<std::uint32_t>(total);
+        columns_ = static_cast<std::uint32_t>(std::sqrt(static_cast<double>(total)));
+        rows_ = (total_ + columns_ - 1) / columns_;
+    }
+
+    void fill_block() override
+    {
+        constexpr std::uint32_t kinds = 6; // two pairs, then four single numbers
+        const std::uint64_t place = std::uint64_t{vertex()} << 32 | block_number();
+        std::size_t word = 0;
+        for (std::uint32_t kind = 0; kind < kinds; ++kind) {
+            const std::uint64_t order = random_word(strata_key_, place * kinds + kind);
+            const std::uint64_t jitter = random_word(jitter_key_, place * kinds + kind);
+            if (kind < 2) {
+                const std::uint32_t cell = stratum(columns_ * rows_, order);
+                block_[word++] = within(cell % columns_, columns_, static_cast<std::uint32_t>(jitter >> 32));
+                block_[word++] = within(cell / columns_, rows_, static_cast<std::uint32_t>(jitter));
+            } else {
+                block_[word++] =
+                    within(stratum(total_, order), total_, static_cast<std::uint32_t>(jitter >> 32));
+            }
+        }
+    }
+
+    // The sample's, of so many; over all keys, each has the same chance.
+    std::uint32_t stratum(std::uint32_t count, std::uint64_t key) const
+    {
+        const std::uint32_t turn = static_cast<std::uint32_t>(key >> 32) % count;
+        return (permute(index_, count, static_cast<std::uint32_t>(key)) + turn) % count;
+    }
+
+    // A place in one of `count` equal intervals, times 2^32.
+    static std::uint32_t within(std::uint32_t interval, std::uint32_t count, std::uint32_t jitter)
+    {
+        return static_cast<std::uint32_t>((std::uint64_t{interval} << 32 | jitter) / count);
+    }
+
+    std::uint64_t samples_per_pixel_;
+    std::uint32_t total_ = 1;
+    std::uint32_t columns_ = 1;
+    std::uint32_t rows_ = 1;
+    std::uint32_t index_ = 0;
+    std::uint64_t strata_key_ = 0;
+    std::uint64_t jitter_key_ = 0;
+};
+
+template std::unique_ptr<Sampler> build<StratifiedSampler>(const Params&);
+
+} // namespace plumb
