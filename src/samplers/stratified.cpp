@@ -1,41 +1,32 @@
 // SPDX-License-Identifier: MIT
 
-// [1] Kensler 2013, "Correlated Multi-Jittered Sampling", Pixar Technical Memo 13-01
+// [1] Luby and Rackoff 1988, "How to Construct Pseudorandom Permutations from Pseudorandom Functions", SIAM J. Comput. 17(2)
+// [2] Black and Rogaway 2002, "Ciphers with Arbitrary Finite Domains", CT-RSA, section 3
 
 #include "interfaces/plugin.h"
 #include "samplers/hashed.h"
 
+#include <bit>
 #include <cmath>
+#include <utility>
 
 namespace plumb {
 namespace {
 
-// Where a number goes in a random order of the numbers below `count`, [1], section 3: a bijection for each key.
-std::uint32_t permute(std::uint32_t i, std::uint32_t count, std::uint32_t key)
+// Where a number goes in a random order of the numbers below `count`: a bijection for each key. Four Feistel rounds [1]
+// permute the numbers below the next power of four; what lands beyond `count` is sent on until it does not [2].
+std::uint32_t permute(std::uint32_t number, std::uint32_t count, std::uint64_t key)
 {
-    std::uint32_t mask = count - 1;
-    for (int shift = 1; shift < 32; shift *= 2) mask |= mask >> shift;
+    const int half = (std::bit_width(count - 1) + 1) / 2;
+    const std::uint32_t mask = (std::uint32_t{1} << half) - 1;
     do {
-        i ^= key;
-        i *= 0xE170893Du;
-        i ^= key >> 16;
-        i ^= (i & mask) >> 4;
-        i ^= key >> 8;
-        i *= 0x0929EB3Fu;
-        i ^= key >> 23;
-        i ^= (i & mask) >> 1;
-        i *= 1 | key >> 27;
-        i *= 0x6935FA69u;
-        i ^= (i & mask) >> 11;
-        i *= 0x74DCB303u;
-        i ^= (i & mask) >> 2;
-        i *= 0x9E501CC3u;
-        i ^= (i & mask) >> 2;
-        i *= 0xC860A3DFu;
-        i &= mask;
-        i ^= i >> 5;
-    } while (i >= count);
-    return i;
+        std::uint32_t left = number >> half;
+        std::uint32_t right = number & mask;
+        for (std::uint64_t round = 0; round < 4; ++round)
+            left = std::exchange(right, left ^ (static_cast<std::uint32_t>(random_word(key + right, round)) & mask));
+        number = left << half | right;
+    } while (number >= count);
+    return number;
 }
 
 } // namespace
@@ -110,7 +101,7 @@ private:
     std::uint32_t stratum(std::uint32_t count, std::uint64_t key) const
     {
         const std::uint32_t turn = static_cast<std::uint32_t>(key >> 32) % count;
-        return (permute(index_, count, static_cast<std::uint32_t>(key)) + turn) % count;
+        return (permute(index_, count, key) + turn) % count;
     }
 
     // A place in one of `count` equal intervals, times 2^32.
