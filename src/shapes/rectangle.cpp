@@ -99,7 +99,8 @@ public:
         const auto place = spherical_->sample(from, u);
         if (!place) return std::nullopt;
         const Vec2f uv(static_cast<float>(place->along_edge1), static_cast<float>(place->along_edge2));
-        return ShapeSample{point(place->along_edge1, place->along_edge2), normal_, clearance_, uv, place->pdf};
+        return ShapeSample{point(place->along_edge1, place->along_edge2), normal_, clearance_, uv,
+                           place->pdf};
     }
 
     std::optional<float> solid_angle_pdf(const Vec3f& from) const override
