@@ -52,7 +52,8 @@ public:
     {
         if (!(wi.z > 0.f)) return std::nullopt;
         const bool glossy = u_lobe < ks_;
-        const Vec3f wo = glossy ? reflect(wi, microfacets_.sample(u)) : square_to_cosine_hemisphere(u);
+        const Vec3f wo =
+            glossy ? reflect(wi, microfacets_.sample_visible(wi, u)) : square_to_cosine_hemisphere(u);
         const auto [f_cos, pdf] = evaluate(at, wi, wo);
         if (!(pdf > 0.f)) return std::nullopt;
         return BsdfSample{wo, f_cos / pdf, pdf, glossy ? Lobe::glossy_reflection : Lobe::diffuse_reflection,

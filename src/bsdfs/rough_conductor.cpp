@@ -41,7 +41,7 @@ public:
     {
         if (!(wi.z > 0.f)) return std::nullopt;
         const Beckmann microfacets = beckmann_at(*alpha_, at.uv);
-        const Vec3f wo = reflect(wi, microfacets.sample(u));
+        const Vec3f wo = reflect(wi, microfacets.sample_visible(wi, u));
         if (!(wo.z > 0.f)) return std::nullopt;
         const auto [f_cos, pdf] = evaluate(microfacets, r0_->color(at.uv), wi, wo);
         if (!(pdf > 0.f)) return std::nullopt;

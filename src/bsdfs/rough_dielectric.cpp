@@ -55,7 +55,7 @@ public:
 
         // A microfacet that wi sees, then the way that its own reflectance chooses.
         const Beckmann microfacets = beckmann_at(*alpha_, at.uv);
-        const Vec3f wh = microfacets.sample(u);
+        const Vec3f wh = microfacets.sample_visible(upwards(wi), u);
         const float cos_i = dot(wi, wh);
         if (!same_side(cos_i, wi.z)) return std::nullopt;
         const Refraction fresnel = fresnel_dielectric(cos_i, eta_);
@@ -114,7 +114,8 @@ private:
         const float d = microfacets.d(wh);
         const float jacobian =
             static_cast<float>(static_cast<double>(std::abs(cos_o)) / length_squared_of_sum);
-        const float pdf = transmittance * d * wh.z * jacobian;
+        const float visible = std::abs(cos_i) / microfacets.visible_area(upwards(wi));
+        const float pdf = transmittance * d * visible * jacobian;
         if (!(pdf > 0.f)) return {};
         const float g = microfacets.g(wi, wo, wh);
         const float scale = static_cast<float>(sqr(ratio));

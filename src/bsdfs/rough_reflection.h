@@ -19,10 +19,16 @@ inline Beckmann beckmann_at(const Texture& alpha, const Vec2f& uv)
     return Beckmann(std::max(alpha.scalar(uv), min_alpha));
 }
 
+// Microfacets seen from behind are those seen from the opposite direction.
+inline Vec3f upwards(const Vec3f& v)
+{
+    return v.z < 0.f ? -v : v;
+}
+
 struct RoughReflection {
     float cos_h;  // wi . wh = wo . wh, signed like wi.z: what Fresnel's equations take
     float dg_cos; // D G |cos_o| / (4 |cos_i cos_o|): times Fresnel, [1], equation 20, with the cosine
-    float pdf;    // D wh.z / (4 |wo . wh|), [1], equations 14 and 24
+    float pdf;    // of wo if wh is sampled as wi sees it: D / (4 visible area), [1], equation 14
 };
 
 // wi and wo lie on one side of the surface.
@@ -32,12 +38,11 @@ inline RoughReflection rough_reflection(const Beckmann& microfacets, const Vec3f
     const Vec3d sum = Vec3d(wi) + Vec3d(wo);
     const double sum_length = length(sum);
     const Vec3f wh(sum * (std::copysign(1.0, sum.z) / sum_length));
-    // The bound keeps the density finite where both directions graze the surface.
-    const float cos_h = std::max(static_cast<float>(0.5 * sum_length), 1e-20f);
+    const auto cos_h = static_cast<float>(0.5 * sum_length);
 
     const float d = microfacets.d(wh);
     const float g_over_cosine = microfacets.g(wi, wo, wh) / (4.f * std::abs(wi.z));
-    return {std::copysign(cos_h, wi.z), d * g_over_cosine, d * wh.z / (4.f * cos_h)};
+    return {std::copysign(cos_h, wi.z), d * g_over_cosine, d / (4.f * microfacets.visible_area(upwards(wi)))};
 }
 
 } // namespace plumb

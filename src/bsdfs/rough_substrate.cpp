@@ -46,7 +46,8 @@ public:
         if (!(wi.z > 0.f)) return std::nullopt;
         const Material here = material(at, wi);
         const bool glossy = u_lobe < here.glossy_chance;
-        const Vec3f wo = glossy ? reflect(wi, here.microfacets.sample(u)) : square_to_cosine_hemisphere(u);
+        const Vec3f wo =
+            glossy ? reflect(wi, here.microfacets.sample_visible(wi, u)) : square_to_cosine_hemisphere(u);
         if (!(wo.z > 0.f)) return std::nullopt;
         const auto [f_cos, pdf] = evaluate(here, wi, wo);
         if (!(pdf > 0.f)) return std::nullopt;

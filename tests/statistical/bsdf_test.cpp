@@ -116,12 +116,12 @@ void check_energy(std::initializer_list<double> degrees, std::uint64_t samples)
 
 TEST_CASE("BSDF samples follow their density", "[statistical][bsdf]")
 {
-    check_sampling({0.0, 35.0, 80.0}, 40'000);
+    check_sampling({0.0, 35.0, 80.0, 87.13}, 40'000); // the last: cosine 0.05
 }
 
 TEST_CASE("BSDF samples follow their density, at more angles with more samples", "[statistical][bsdf][slow]")
 {
-    check_sampling({0.5, 20.0, 60.0, 70.0, 85.0, 89.0, 89.9}, 400'000);
+    check_sampling({0.5, 20.0, 60.0, 70.0, 85.0, 89.0, 89.9, 89.94}, 400'000);
 }
 
 TEST_CASE("no BSDF reflects and transmits more than it receives", "[statistical][bsdf]")

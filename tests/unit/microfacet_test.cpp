@@ -17,6 +17,9 @@ Vec3f direction(double theta, double phi = 0.3)
     return Vec3f(Vec3d(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)));
 }
 
+// Of directions that see microfacets, from straight above to grazing.
+constexpr double cosines[] = {1.0, 0.9, 0.5, 0.2, 0.05, 0.001};
+
 // Cells whose size follows that of the lobe.
 SphereGrid grid_for(double alpha)
 {
@@ -34,8 +37,14 @@ TEST_CASE("Beckmann microfacets cover the surface: D cos integrates to 1", "[uni
             return static_cast<double>(beckmann.d(wh) * std::max(0.f, wh.z));
         };
         CHECK(integrate_sphere(grid_for(alpha), covered) == Approx(1.0).epsilon(1e-4));
-        const auto density = [&](const Vec3f& wh) { return static_cast<double>(beckmann.pdf(wh)); };
-        CHECK(integrate_sphere(grid_for(alpha), density) == Approx(1.0).epsilon(1e-4));
+        for (const double cosine : cosines) {
+            CAPTURE(cosine);
+            const Vec3f v = direction(std::acos(cosine));
+            const auto density = [&](const Vec3f& wh) {
+                return static_cast<double>(beckmann.visible_pdf(v, wh));
+            };
+            CHECK(integrate_sphere(grid_for(alpha), density) == Approx(1.0).epsilon(1e-4));
+        }
     }
 }
 
@@ -94,29 +103,69 @@ TEST_CASE("shadowing is 0 where a direction does not see the microfacet, and G i
     CHECK(beckmann.g(wi, wo, tilted) < 1.f);
 }
 
-TEST_CASE("Beckmann sampling follows its density", "[statistical][microfacet]")
+TEST_CASE("microfacets cover what is seen of the surface, by Smith's exact shadowing", "[unit][microfacet]")
 {
-    const float alphas[] = {1e-4f, 0.01f, 0.1f, 0.4f, 1.f};
-    for (const float alpha : alphas) {
-        const Beckmann beckmann(alpha);
-        auto grid = grid_for(alpha);
-        grid.phi_cells = 16;
-        check_distribution(
-            "Beckmann, alpha = " + std::to_string(alpha), grid,
-            [&](TestRandom& random) { return beckmann.sample(random.next_2d()); },
-            [&](const Vec3f& wh) { return beckmann.pdf(wh); }, 100'000,
-            sidak_level(significance, std::size(alphas)));
-    }
+    // Heitz 2014, equation 23, with G1 as above.
+    for (const float alpha : {1e-4f, 0.1f, 0.5f, 1.f})
+        for (double theta = 0.01; theta < 1.5708; theta += 0.01) {
+            const double a = 1.0 / (alpha * std::tan(theta));
+            const double g1 = 2.0 / (1.0 + std::erf(a) + std::exp(-a * a) / (a * std::sqrt(pi_d)));
+            CAPTURE(alpha, theta);
+            CHECK(Beckmann(alpha).visible_area(direction(theta)) ==
+                  Approx(std::cos(theta) / g1).epsilon(1e-5));
+        }
+    CHECK(Beckmann(0.5f).visible_area(Vec3f(0.f, 0.f, 1.f)) == 1.f);
+    CHECK(Beckmann(0.5f).visible_area(Vec3f(1.f, 0.f, 0.f)) == Approx(0.25 / std::sqrt(pi_d)));
 }
 
-TEST_CASE("Beckmann samples of the corners of the square are finite unit vectors", "[unit][microfacet]")
+TEST_CASE("visible microfacets are sampled by their density", "[statistical][microfacet]")
+{
+    const float alphas[] = {1e-4f, 0.01f, 0.1f, 0.4f, 1.f};
+    for (const float alpha : alphas)
+        for (const double cosine : cosines) {
+            const Beckmann beckmann(alpha);
+            const Vec3f v = direction(std::acos(cosine));
+            auto grid = grid_for(alpha);
+            grid.phi_cells = 16;
+            check_distribution(
+                "Beckmann, alpha = " + std::to_string(alpha) + ", cosine = " + std::to_string(cosine), grid,
+                [&](TestRandom& random) { return beckmann.sample_visible(v, random.next_2d()); },
+                [&](const Vec3f& wh) { return beckmann.visible_pdf(v, wh); }, 40'000,
+                sidak_level(significance, std::size(alphas) * std::size(cosines)));
+        }
+}
+
+TEST_CASE("the slope of a visible microfacet inverts its distribution", "[unit][microfacet]")
+{
+    // Along the azimuth of v, slopes x (in units of alpha) have the distribution that is integrated here in closed form.
+    for (const float alpha : {0.01f, 0.3f, 1.f})
+        for (const double cosine : {0.9, 0.5, 0.2, 0.05, 1e-3, 1e-6, 1e-20}) {
+            const double sine = std::sqrt(1.0 - cosine * cosine);
+            const Vec3f v(Vec3d(sine, 0.0, cosine));
+            const auto seen = [&](double x) {
+                return cosine * std::erfc(-x) + alpha * sine * std::exp(-x * x) / std::sqrt(pi_d);
+            };
+            for (const float u : {0.f, 1e-6f, 1e-3f, 0.1f, 0.3f, 0.5f, 0.7f, 0.9f, 0.99f}) {
+                CAPTURE(alpha, cosine, u);
+                const Vec3d wh(Beckmann(alpha).sample_visible(v, Vec2f(u, 0.5f)));
+                const double x = -wh.x / wh.z / alpha;
+                const double expected = static_cast<double>(u) + 0x1p-25;
+                CHECK(seen(x) / seen(cosine / (alpha * sine)) == Approx(expected).epsilon(3e-5));
+            }
+        }
+}
+
+TEST_CASE("visible microfacets of the corners of the square are finite unit vectors", "[unit][microfacet]")
 {
     for (const float alpha : {1e-4f, 1.f})
-        for (const float x : {0.f, one_minus_epsilon})
-            for (const float y : {0.f, one_minus_epsilon}) {
-                const Vec3f wh = Beckmann(alpha).sample({x, y});
-                CHECK(length(wh) == Approx(1.0).epsilon(1e-6));
-                CHECK(wh.z > 0.f);
-                CHECK(Beckmann(alpha).pdf(wh) > 0.f);
-            }
+        for (const float z : {1.f, 0.5f, 1e-3f, 1e-20f, 1e-40f})
+            for (const float x : {0.f, one_minus_epsilon})
+                for (const float y : {0.f, one_minus_epsilon}) {
+                    CAPTURE(alpha, z, x, y);
+                    const Vec3f v(std::sqrt(1.f - z * z), 0.f, z);
+                    const Vec3f wh = Beckmann(alpha).sample_visible(v, {x, y});
+                    CHECK(length(wh) == Approx(1.0).epsilon(1e-6));
+                    CHECK(wh.z > 0.f);
+                    CHECK(std::isfinite(Beckmann(alpha).visible_pdf(v, wh)));
+                }
 }
