@@ -23,7 +23,8 @@ std::uint32_t permute(std::uint32_t number, std::uint32_t count, std::uint64_t k
         std::uint32_t left = number >> half;
         std::uint32_t right = number & mask;
         for (std::uint64_t round = 0; round < 4; ++round)
-            left = std::exchange(right, left ^ (static_cast<std::uint32_t>(random_word(key + right, round)) & mask));
+            left = std::exchange(right,
+                                 left ^ (static_cast<std::uint32_t>(random_word(key + right, round)) & mask));
         number = left << half | right;
     } while (number >= count);
     return number;

@@ -107,7 +107,8 @@ TEST_CASE("a report has what --json promises", "[unit][json]")
         CHECK_THAT(report_json(report),
                    ContainsSubstring("\"biased\": true,\n  \"biases\": [\n    \"this\",\n    \"that\"\n  ],\n"
                                      "  \"model\": [\n    \"emitters absorb\"\n  ],\n  \"noise\": {\n"
-                                     "    \"rmse\": 0.5,\n    \"low\": 0.25,\n    \"high\": 0.75\n  },"));
+                                     "    \"rmse\": 0.5,\n    \"low\": 0.25,\n    \"high\": 0.75,\n    "
+                                     "\"upper_bound\": false\n  },"));
     }
     SECTION("a sample left out has its place and its reason")
     {
