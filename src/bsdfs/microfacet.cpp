@@ -41,17 +41,16 @@ public:
         const auto [cos_h, dg_cos, glossy_pdf] = rough_reflection(microfacets_, wi, wo);
         const float fresnel = fresnel_dielectric(cos_h, eta_).reflectance;
         const float diffuse_pdf = cosine_hemisphere_pdf(wo);
-        const float pdf = ks_ * glossy_pdf + (1.f - ks_) * diffuse_pdf;
+        const float pdf = lerp(diffuse_pdf, glossy_pdf, glossy_chance(wi));
         if (!(pdf > 0.f)) return {};
         return {kd_ * diffuse_pdf + Color(ks_ * fresnel * dg_cos), pdf};
     }
 
-    // Either lobe is black where its chance, ks or 1 - ks, is 0.
     std::optional<BsdfSample> sample(const SurfacePoint& at, const Vec3f& wi, float u_lobe,
                                      const Vec2f& u) const override
     {
         if (!(wi.z > 0.f)) return std::nullopt;
-        const bool glossy = u_lobe < ks_;
+        const bool glossy = u_lobe < glossy_chance(wi);
         const Vec3f wo =
             glossy ? reflect(wi, microfacets_.sample_visible(wi, u)) : square_to_cosine_hemisphere(u);
         const auto [f_cos, pdf] = evaluate(at, wi, wo);
@@ -61,6 +60,15 @@ public:
     }
 
 private:
+    // The lobes are chosen by what they reflect at wi, but neither is starved. 0 or 1 where one is black.
+    float glossy_chance(const Vec3f& wi) const
+    {
+        const float glossy = ks_ * fresnel_dielectric(wi.z, eta_).reflectance;
+        if (glossy == 0.f) return 0.f;
+        const float diffuse = luminance(kd_);
+        return diffuse > 0.f ? std::clamp(glossy / (glossy + diffuse), 0.1f, 0.9f) : 1.f;
+    }
+
     Beckmann microfacets_;
     float eta_;
     Color kd_;

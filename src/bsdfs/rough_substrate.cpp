@@ -87,7 +87,9 @@ private:
     {
         if (eta_ == 1.f) return 0.f;
         if (kd.is_black()) return 1.f;
-        return std::clamp(fresnel_dielectric(wi.z, eta_).reflectance, 0.1f, 0.9f);
+        const float glossy = fresnel_dielectric(wi.z, eta_).reflectance;
+        const float base = luminance(kd) * (1.f - glossy);
+        return std::clamp(glossy / (glossy + base), 0.1f, 0.9f);
     }
 
     BsdfValue evaluate(const Material& here, const Vec3f& wi, const Vec3f& wo) const

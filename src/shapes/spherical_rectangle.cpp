@@ -48,7 +48,9 @@ std::optional<SphericalRectangle> SphericalRectangle::from(const Vec3d& corner, 
 
 SphericalRectangle::SphericalRectangle(const Vec3d& corner, const Vec3d& edge1, const Vec3d& edge2,
                                        const Vec3f& front)
-    : corner_(corner),
+    : middle_(corner + (edge1 + edge2) * 0.5),
+      far2_(static_cast<float>(sqr(1.5) * (length_squared(edge1) + length_squared(edge2)))), // see view_from
+      corner_(corner),
       axis1_(normalize(edge1)),
       axis2_(normalize(edge2 - axis1_ * dot(edge2, axis1_))),
       back_(cross(axis1_, axis2_)),
@@ -73,7 +75,8 @@ std::optional<SphericalRectangle::View> SphericalRectangle::view_from(const Vec3
     const double beside_y = std::max({y0, -y1, 0.0});
     const double nearest2 = sqr(beside_x) + sqr(beside_y) + sqr(z);
     // The density of area sampling goes with the cube of the distance. Further away than the diagonal is long, it is
-    // even enough: what solid angles gain there in the Cornell box is less than they cost.
+    // even enough: what solid angles gain there in the Cornell box is less than they cost. (And nothing that is nearer is
+    // further than one and a half diagonals from the middle.)
     if (sqr(length1_) + sqr(length2_) < nearest2) return std::nullopt;
 
     // Along y the rectangle must not reach around a receiver that is beside it in x: the angle `left` would be close to
@@ -97,7 +100,8 @@ std::optional<SphericalRectangle::View> SphericalRectangle::view_from(const Vec3
     return View{x0, x1, y0, y1, z, exchanged, left, solid_angle, static_cast<float>(1.0 / solid_angle)};
 }
 
-std::optional<SphericalRectangle::Place> SphericalRectangle::sample(const Vec3f& from, const Vec2f& u) const
+std::optional<SphericalRectangle::Place> SphericalRectangle::sample_near(const Vec3f& from,
+                                                                         const Vec2f& u) const
 {
     const std::optional<View> view = view_from(from);
     if (!view) return std::nullopt;
@@ -128,7 +132,7 @@ std::optional<SphericalRectangle::Place> SphericalRectangle::sample(const Vec3f&
     return exchanged ? Place{along_y, along_x, pdf} : Place{along_x, along_y, pdf};
 }
 
-std::optional<float> SphericalRectangle::pdf(const Vec3f& from) const
+std::optional<float> SphericalRectangle::pdf_near(const Vec3f& from) const
 {
     const std::optional<View> view = view_from(from);
     if (!view) return std::nullopt;
