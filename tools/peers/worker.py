@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: MIT
+"""A peer in a process of its own: loads one scene once, then renders it as often as it is asked to.
+
+    worker.py RENDERER SETTINGS
+
+SETTINGS is JSON: scene, folder (its files), width, height, quick, threads, and the renderer's own. Requests are lines
+of JSON, {"spp": N, "seed": N, "file": X.npy}; answers too: {"seconds": X, "spp": N}. The first answer, with the
+renderer's version, comes when a first picture of one sample per pixel is rendered.
+"""
+
+import importlib
+import json
+import os
+import resource
+import sys
+import time
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE), str(HERE.parent / "judge")]
+
+
+def answers():
+    """Where answers go: standard output, which is from then on standard error, as renderers print there."""
+    channel = os.fdopen(os.dup(1), "w", buffering=1)
+    os.dup2(2, 1)
+    return channel
+
+
+def main():
+    channel = answers()
+    renderer, settings = sys.argv[1], json.loads(sys.argv[2])
+
+    import bench_scenes
+
+    scene = bench_scenes.make(settings["scene"], settings["width"], settings["height"], settings["quick"]).scene
+    peer = importlib.import_module(renderer + "_peer").Peer(scene, Path(settings["folder"]), settings)
+    peer.render(1, 1)
+    print(json.dumps({"version": peer.version}), file=channel)
+
+    import numpy as np
+
+    for line in sys.stdin:
+        request = json.loads(line)
+        start = time.perf_counter()
+        picture = peer.render(request["spp"], request["seed"])
+        seconds = time.perf_counter() - start
+        np.save(request["file"], np.asarray(picture() if callable(picture) else picture, dtype=np.float32))
+        memory = 1024 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+        print(json.dumps({"seconds": seconds, "peak_memory": memory}), file=channel)
+
+
+if __name__ == "__main__":
+    main()
