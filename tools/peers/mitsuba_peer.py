@@ -1,8 +1,12 @@
 # SPDX-License-Identifier: MIT
 """Mitsuba 3, as tools/judge has it. Settings: variant, sampler."""
 
+import time
+
 import mitsuba as mi
 import numpy as np
+
+from worker import Rendered
 
 # A wavefront holds all its paths in memory; more samples are taken in several, with seeds of their own.
 LARGEST_WAVEFRONT = 1 << 24
@@ -25,7 +29,8 @@ class Peer:
     def render(self, spp, seed):
         passes = -(-spp // self.most)
         picture = 0.0
+        start = time.perf_counter()
         for i in range(passes):
             part = mi.render(self.scene, spp=spp // passes, seed=passes * seed + i)
             picture = picture + np.array(part, dtype=np.float64)[:, :, :3] / passes
-        return picture
+        return Rendered(lambda: picture, time.perf_counter() - start)

@@ -4,7 +4,7 @@
     worker.py RENDERER SETTINGS
 
 SETTINGS is JSON: scene, folder (its files), width, height, quick, threads, and the renderer's own. Requests are lines
-of JSON, {"spp": N, "seed": N, "file": X.npy}; answers too: {"seconds": X, "spp": N}. The first answer, with the
+of JSON, {"spp": N, "seed": N, "file": X.npy}; answers too: {"seconds": X, "peak_memory": N}. The first answer, with the
 renderer's version, comes when a first picture of one sample per pixel is rendered.
 """
 
@@ -13,11 +13,17 @@ import json
 import os
 import resource
 import sys
-import time
+from dataclasses import dataclass
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parent / "judge")]
+
+
+@dataclass
+class Rendered:
+    picture: object  # a function that fetches it
+    seconds: float  # of rendering alone
 
 
 def answers():
@@ -42,12 +48,10 @@ def main():
 
     for line in sys.stdin:
         request = json.loads(line)
-        start = time.perf_counter()
-        picture = peer.render(request["spp"], request["seed"])
-        seconds = time.perf_counter() - start
-        np.save(request["file"], np.asarray(picture() if callable(picture) else picture, dtype=np.float32))
+        rendered = peer.render(request["spp"], request["seed"])
+        np.save(request["file"], np.asarray(rendered.picture(), dtype=np.float32))
         memory = 1024 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-        print(json.dumps({"seconds": seconds, "peak_memory": memory}), file=channel)
+        print(json.dumps({"seconds": rendered.seconds, "peak_memory": memory}), file=channel)
 
 
 if __name__ == "__main__":
