@@ -207,7 +207,7 @@ def light(description):
     }
 
 
-def camera(scene):
+def camera(scene, sampler):
     c = scene.camera
     rfilter = {"type": scene.filter.kind}
     if scene.filter.kind == "box":
@@ -237,16 +237,16 @@ def camera(scene):
             "sample_border": scene.filter.radius > 0.5,
             "rfilter": rfilter,
         },
-        "sampler": {"type": "independent"},
+        "sampler": {"type": sampler},
     }
     if c.lens_radius > 0.0:
         result |= {"type": "thinlens", "aperture_radius": c.lens_radius, "focus_distance": c.focal_distance}
     return result
 
 
-def build(scene, folder):
+def build(scene, folder, sampler="independent"):
     depth = scene.max_depth if scene.max_depth < 0 else scene.max_depth + 1  # Mitsuba counts the camera's ray
-    result = {"type": "scene", "integrator": {"type": "path", "max_depth": depth}, "camera": camera(scene)}
+    result = {"type": "scene", "integrator": {"type": "path", "max_depth": depth}, "camera": camera(scene, sampler)}
     for i, one in enumerate(scene.shapes):
         result[f"shape{i}"] = shape(one, folder)
     for i, one in enumerate(scene.lights):

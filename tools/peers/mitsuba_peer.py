@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: MIT
+"""Mitsuba 3, as tools/judge has it. Settings: variant, sampler."""
+
+import time
+
+import mitsuba as mi
+import numpy as np
+
+from worker import Rendered
+
+# A wavefront holds all its paths in memory; more samples are taken in several, with seeds of their own.
+LARGEST_WAVEFRONT = 1 << 24
+
+
+class Peer:
+    def __init__(self, scene, folder, settings):
+        mi.set_variant(settings["variant"])
+        import drjit
+        import mitsuba_scene
+
+        drjit.set_thread_count(settings["threads"])
+        self.version = "Mitsuba " + mi.__version__
+        self.scene = mitsuba_scene.build(scene, folder, settings["sampler"])
+        pixels = scene.camera.width * scene.camera.height
+        self.most = 1 << ((LARGEST_WAVEFRONT // pixels).bit_length() - 1)
+        self.compiled = set()  # numbers of samples
+        if not settings["variant"].startswith("llvm"):
+            self.most = 1 << 30
+
+    def render(self, spp, seed):
+        """Mitsuba may compile anew for another number of samples, which is no part of the seconds."""
+        passes = -(-spp // self.most)
+        if spp // passes not in self.compiled:
+            np.array(mi.render(self.scene, spp=spp // passes, seed=0))
+            self.compiled.add(spp // passes)
+        picture = 0.0
+        start = time.perf_counter()
+        for i in range(passes):
+            part = mi.render(self.scene, spp=spp // passes, seed=passes * seed + i)
+            picture = picture + np.array(part, dtype=np.float64)[:, :, :3] / passes
+        return Rendered(lambda: picture, time.perf_counter() - start)
