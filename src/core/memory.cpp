@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <fstream>
+#include <memory>
 #include <string>
 #include <string_view>
 
+#include <sys/mman.h>
 #include <sys/resource.h>
 
 namespace plumb {
@@ -67,6 +69,15 @@ std::uint64_t peak_memory()
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+void prefer_large_pages(void* begin, std::size_t bytes)
+{
+    constexpr std::size_t page = std::size_t{2} << 20;
+    void* first = begin;
+    std::size_t left = bytes;
+    if (!std::align(page, page, first, left)) return;
+    madvise(first, left / page * page, MADV_HUGEPAGE); // if it will not, the pages are small
 }
 
 } // namespace plumb
