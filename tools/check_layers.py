@@ -18,11 +18,11 @@ LAYERS = ["math", "core", "interfaces", "plugins", "scene", "integrators", "rend
 
 # include/plumb/NAME.h, and src/**/NAME.cpp beside it, belong to a layer by name.
 HEADERS = {
-    "math": "math color elementary frame ray transform",
+    "math": "math color direction_cone elementary frame ray transform",
     "core": "dialect distribution error fixed_point fresnel hash image intersection mean_and_variance mesh microfacet "
             "sampling statistics version",
     "interfaces": "bsdf camera emitter filter integrator params sampler shape surface texture",
-    "scene": "scene tracer",
+    "scene": "light_tree scene tracer",
     "render": "evidence film render sample_set state_file stop_rules",
     "check": "check",
     "scene_file": "load scene_file suite test_file",

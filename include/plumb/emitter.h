@@ -4,6 +4,7 @@
 // The interface of emitters.
 
 #include "plumb/color.h"
+#include "plumb/direction_cone.h"
 #include "plumb/surface.h"
 
 #include <optional>
@@ -37,7 +38,16 @@ struct alignas(16) EmitterSample {
     float pdf = 0.f;   // per unit solid angle; 1 where is_delta
     Color radiance;    // arriving if nothing is in between; for point lights intensity / distance^2
     bool is_delta = false;            // no other technique can find this light
-    const Emitter* emitter = nullptr; // set by Scene, which chose it
+    const Emitter* emitter = nullptr; // this and the next: set by Scene, which chose it
+    std::uint32_t emitter_index = 0;  // as in SurfacePoint
+};
+
+// Where a light is, what it emits, and whither. Where it emits light in a direction there is a normal in the cone at
+// most 90 degrees away, and what is emitted falls off with the cosine between them.
+struct LightBounds {
+    Box3f box;
+    double power = 0.0; // as Emitter::power()
+    DirectionCone normals;
 };
 
 // The sphere around everything that is not infinitely far away.
@@ -64,9 +74,12 @@ public:
     virtual EmitterValue evaluate(const Vec3f& from, const Vec3f& wi, const SurfacePoint* at,
                                   Measure measure) const = 0;
 
-    // Emitted power in watts, luminance-weighted: what emitters are chosen in proportion to. Positive unless the
-    // emitter is black everywhere.
+    // Emitted power in watts, luminance-weighted; of an infinite emitter what enters the scene's sphere. Positive unless
+    // the emitter is black everywhere.
     virtual float power() const = 0;
+
+    // Nothing for infinite emitters.
+    virtual std::optional<LightBounds> bounds() const { return std::nullopt; }
 
     virtual bool is_delta() const { return false; } // BSDF sampling cannot reach it
     virtual bool is_infinite() const

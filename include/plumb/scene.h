@@ -4,8 +4,8 @@
 // The scene: owns shapes, BSDFs and emitters, and answers what a ray meets.
 
 #include "plumb/bsdf.h"
-#include "plumb/distribution.h"
 #include "plumb/emitter.h"
+#include "plumb/light_tree.h"
 #include "plumb/shape.h"
 
 #include <memory>
@@ -35,7 +35,7 @@ struct SceneMemory {
     std::uint64_t pictures = 0; // of environments
 };
 
-// Conventions. World space. Emitters are chosen in proportion to their power.
+// Conventions. World space. Emitters are chosen by what they are expected to send to the receiver (light_tree.h).
 class Scene {
 public:
     // lights: the emitters that no shape carries. Builds the acceleration structure; throws Error if Embree cannot.
@@ -82,10 +82,8 @@ public:
 
 private:
     class Accel;
-    std::optional<EmitterSample> sample_chosen(const Emitter& emitter,
-                                               const DiscreteDistribution::Choice& choice,
-                                               const LightReceiver& receiver, const Vec2f& u,
-                                               Measure measure) const;
+    std::optional<EmitterSample> sample_chosen(const LightTree::Choice& choice, const LightReceiver& receiver,
+                                               const Vec2f& u, Measure measure) const;
 
     SceneOptions options_;
     std::vector<SceneObject> objects_;
@@ -93,9 +91,8 @@ private:
     std::vector<const Emitter*> emitters_;         // those of objects_, then lights_
     std::vector<std::uint32_t> emitter_of_object_; // index into emitters_
     std::vector<std::uint32_t> infinite_;          // indices of infinite, not delta emitters
-    std::vector<std::uint32_t> delta_;             // indices of delta emitters
-    DiscreteDistribution choice_;                  // over emitters_
-    DiscreteDistribution delta_choice_;            // over delta_
+    LightTree choice_;
+    LightTree delta_choice_; // among delta emitters alone
     std::unique_ptr<Accel> accel_;
 };
 

@@ -3,6 +3,7 @@
 
 // The interface of shapes.
 
+#include "plumb/direction_cone.h"
 #include "plumb/surface.h"
 
 #include <array>
@@ -44,6 +45,8 @@ public:
     // Leaves bsdf and emitter null.
     virtual SurfacePoint surface_at(const Ray& ray, std::uint32_t primitive) const = 0;
 
+    // Must be called before sample_area; shapes whose surface is never sampled keep no table for it.
+    virtual void prepare_sampling() {}
     // Uniform over the area; pdf = 1 / area().
     virtual ShapeSample sample_area(double u_select, const Vec2f& u) const = 0;
 
@@ -58,6 +61,7 @@ public:
 
     virtual float area() const = 0;
     virtual Box3f bounds() const = 0;
+    virtual DirectionCone normals() const = 0; // holds all geometric normals
     virtual std::uint64_t triangle_count() const { return 0; }
     virtual std::uint64_t memory_bytes() const { return 0; } // of its mesh, if it has one
 };

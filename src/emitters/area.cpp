@@ -62,6 +62,11 @@ public:
     // Radiance is the same in all directions: pi times its mean leaves each unit of area.
     float power() const override { return pi * shape_->area() * luminance(radiance_->mean() * scale_); }
 
+    std::optional<LightBounds> bounds() const override
+    {
+        return LightBounds{shape_->bounds(), power(), shape_->normals()};
+    }
+
     bool has_solid_angle() const override { return has_solid_angle_; }
 
 private:

@@ -54,6 +54,11 @@ public:
     }
 
     float power() const override { return 4.f * pi * luminance(intensity_); }
+    std::optional<LightBounds> bounds() const override
+    {
+        return LightBounds{Box3f(position_), power(), DirectionCone{}};
+    }
+
     bool is_delta() const override { return true; }
 
 private:

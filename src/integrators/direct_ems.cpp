@@ -5,7 +5,8 @@
 
 namespace plumb {
 
-/// Emission and direct light, by emitter sampling: one sample of one emitter, chosen in proportion to power.
+/// Emission and direct light, by emitter sampling: one sample of one emitter, chosen by what it is
+/// expected to send to the surface.
 ///
 /// Emitters reflected by discrete BSDFs (mirror, smooth glass) are seen too, so that all direct_* integrators agree.
 /// No parameters.

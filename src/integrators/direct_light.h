@@ -15,7 +15,7 @@ enum class Heuristic { none, balance, power };
 Heuristic heuristic_of(const Params& params); // the parameter `heuristic`
 float mis_weight(Heuristic heuristic, float mine, float other);
 
-// One emitter, chosen in proportion to power, and one point of it. With a heuristic, emitters that BSDF sampling
+// One emitter, chosen by what it is expected to send here (light_tree.h), and one point of it. With a heuristic, emitters that BSDF sampling
 // finds too are weighted against it.
 Color light_from_one_emitter(Tracer& tracer, Sampler& sampler, const Vertex& vertex,
                              Heuristic heuristic = Heuristic::none);

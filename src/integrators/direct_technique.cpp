@@ -19,7 +19,7 @@ DirectTechnique::Kind kind_of(const Params& params, const char* name, DirectTech
 }
 
 // A point of a light as a ray would have met it, as far as its density depends on it.
-SurfacePoint surface_of(const Scene& scene, const EmitterSample& light)
+SurfacePoint surface_of(const EmitterSample& light)
 {
     SurfacePoint point;
     point.position = light.position;
@@ -27,9 +27,7 @@ SurfacePoint surface_of(const Scene& scene, const EmitterSample& light)
     point.clearance = light.clearance;
     point.shading = Frame(light.normal);
     point.emitter = light.emitter;
-    const auto& emitters = scene.emitters();
-    point.emitter_index = static_cast<std::uint32_t>(
-        std::find(emitters.begin(), emitters.end(), light.emitter) - emitters.begin());
+    point.emitter_index = light.emitter_index;
     return point;
 }
 
@@ -108,7 +106,7 @@ std::optional<DirectTechnique::Found> DirectTechnique::find_by_emitter(Tracer& t
     const BsdfValue value = vertex.evaluate(light->wi);
     const Color contribution = value.f_cos * light->radiance;
     if (contribution.is_black() || !tracer.visible(vertex.at(), *light)) return std::nullopt;
-    const SurfacePoint point = surface_of(tracer.scene(), *light);
+    const SurfacePoint point = surface_of(*light);
     const bool is_surface = light->distance != infinity;
     return Found{contribution, light->pdf,
                  other.density(tracer.scene(), vertex, light->wi, value, is_surface ? &point : nullptr)};

@@ -24,22 +24,17 @@ Scene::Scene(std::vector<SceneObject> objects, std::vector<std::unique_ptr<Emitt
         emitter.prepare(sphere);
         const auto index = static_cast<std::uint32_t>(emitters_.size());
         emitters_.push_back(&emitter);
-        if (emitter.is_delta())
-            delta_.push_back(index);
-        else if (emitter.is_infinite())
-            infinite_.push_back(index);
+        if (emitter.is_infinite() && !emitter.is_delta()) infinite_.push_back(index);
         return index;
     };
-    for (const SceneObject& object : objects_)
+    for (const SceneObject& object : objects_) {
+        if (object.emitter) object.shape->prepare_sampling();
         emitter_of_object_.push_back(object.emitter ? add_emitter(*object.emitter) : 0);
+    }
     for (const auto& light : lights_) add_emitter(*light);
 
-    std::vector<double> powers;
-    std::vector<double> delta_powers;
-    for (const Emitter* emitter : emitters_) powers.push_back(emitter->power());
-    for (const std::uint32_t index : delta_) delta_powers.push_back(powers[index]);
-    choice_ = DiscreteDistribution(powers);
-    delta_choice_ = DiscreteDistribution(delta_powers);
+    choice_ = LightTree(emitters_, LightTree::Among::all, sphere);
+    delta_choice_ = LightTree(emitters_, LightTree::Among::delta, sphere);
 
     accel_ = std::make_unique<Accel>(objects_, options_.instruction_set);
 }
@@ -52,26 +47,29 @@ std::optional<EmitterSample> Scene::sample_emitter(const LightReceiver& receiver
                                                    const Vec2f& u, Measure measure) const
 {
     if (!choice_.can_sample()) return std::nullopt;
-    const DiscreteDistribution::Choice choice = choice_.sample(u_choice);
-    return sample_chosen(*emitters_[choice.index], choice, receiver, u, measure);
+    const std::optional<LightTree::Choice> choice = choice_.choose(receiver, u_choice);
+    if (!choice) return std::nullopt;
+    return sample_chosen(*choice, receiver, u, measure);
 }
 
 std::optional<EmitterSample> Scene::sample_delta_emitter(const LightReceiver& receiver, double u_choice,
                                                          const Vec2f& u) const
 {
     if (!delta_choice_.can_sample()) return std::nullopt;
-    const DiscreteDistribution::Choice choice = delta_choice_.sample(u_choice);
-    return sample_chosen(*emitters_[delta_[choice.index]], choice, receiver, u, Measure::best);
+    const std::optional<LightTree::Choice> choice = delta_choice_.choose(receiver, u_choice);
+    if (!choice) return std::nullopt;
+    return sample_chosen(*choice, receiver, u, Measure::best);
 }
 
-std::optional<EmitterSample> Scene::sample_chosen(const Emitter& emitter,
-                                                  const DiscreteDistribution::Choice& choice,
+std::optional<EmitterSample> Scene::sample_chosen(const LightTree::Choice& choice,
                                                   const LightReceiver& receiver, const Vec2f& u,
                                                   Measure measure) const
 {
+    const Emitter& emitter = *emitters_[choice.index];
     std::optional<EmitterSample> light = emitter.sample(receiver.position, choice.u, u, measure);
     if (!light) return light;
     light->emitter = &emitter;
+    light->emitter_index = choice.index;
     light->pdf *= choice.probability;
     // Infinite emitters overlap: the direction brings light from all of them, and any could have chosen it.
     if (infinite_.size() > 1 && emitter.is_infinite() && !emitter.is_delta()) {
@@ -88,13 +86,13 @@ EmitterValue Scene::emission(const LightReceiver& receiver, const Vec3f& wi, con
     if (hit != nullptr) {
         if (hit->emitter == nullptr) return {};
         const EmitterValue value = hit->emitter->evaluate(receiver.position, wi, hit, measure);
-        return {value.radiance, value.pdf * choice_.probability(hit->emitter_index)};
+        return {value.radiance, value.pdf * choice_.probability(receiver, hit->emitter_index)};
     }
     EmitterValue sum;
     for (const std::uint32_t index : infinite_) {
         const EmitterValue value = emitters_[index]->evaluate(receiver.position, wi, nullptr, measure);
         sum.radiance += value.radiance;
-        sum.pdf += value.pdf * choice_.probability(index);
+        sum.pdf += value.pdf * choice_.probability(receiver, index);
     }
     return sum;
 }

@@ -119,6 +119,8 @@ public:
         return box;
     }
 
+    DirectionCone normals() const override { return cone_about(Vec3d(normal_), 1.0); }
+
     std::uint64_t triangle_count() const override { return triangles_.size(); }
 
 private:

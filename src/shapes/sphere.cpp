@@ -109,6 +109,7 @@ public:
     bool has_solid_angle() const override { return true; }
     float area() const override { return area_; }
     Box3f bounds() const override { return {center_ - Vec3f(radius_), center_ + Vec3f(radius_)}; }
+    DirectionCone normals() const override { return {}; }
 
 private:
     // The directions in which the sphere is seen from outside.

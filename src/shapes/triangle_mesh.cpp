@@ -43,12 +43,9 @@ public:
                 return;
             }
 
-        std::vector<double> areas;
-        areas.reserve(mesh_.triangles.size());
-        for (std::uint32_t i = 0; i < mesh_.triangles.size(); ++i)
-            areas.push_back(length(triangle_cross(corners(i).edges())) * 0.5);
-        choice_ = DiscreteDistribution(areas);
-        area_ = static_cast<float>(choice_.sum());
+        double area = 0.0;
+        for (std::uint32_t i = 0; i < mesh_.triangles.size(); ++i) area += triangle_area(i);
+        area_ = static_cast<float>(area);
         if (!(area_ > 0.f)) throw Error("every triangle of '" + file.string() + "' has an area of 0");
         rectangle_ = rectangle();
     }
@@ -73,6 +70,14 @@ public:
         const float clearance = triangle_clearance(t, geometric_normal, normal_length);
         return {triangle_point(edges, b), clearance, geometric_normal, primitive, shading, 0,
                 uv(primitive, b)};
+    }
+
+    void prepare_sampling() override
+    {
+        std::vector<double> areas;
+        areas.reserve(mesh_.triangles.size());
+        for (std::uint32_t i = 0; i < mesh_.triangles.size(); ++i) areas.push_back(triangle_area(i));
+        choice_ = DiscreteDistribution(areas);
     }
 
     ShapeSample sample_area(double u_select, const Vec2f& u) const override
@@ -107,6 +112,20 @@ public:
         Box3f box;
         for (const Vec3f& p : mesh_.positions) box.extendBy(p); // each belongs to a triangle
         return box;
+    }
+
+    DirectionCone normals() const override
+    {
+        Vec3d axis(0.0);
+        for (std::uint32_t i = 0; i < mesh_.triangles.size(); ++i)
+            axis += Vec3d(triangle_normal(i)) * triangle_area(i);
+        const double size = length(axis);
+        if (!(size > 0.0)) return {};
+        double cosine = 1.0;
+        for (std::uint32_t i = 0; i < mesh_.triangles.size(); ++i)
+            if (triangle_area(i) > 0.0)
+                cosine = std::min(cosine, dot(Vec3d(triangle_normal(i)), axis) / size);
+        return cone_about(axis, cosine);
     }
 
     std::uint64_t triangle_count() const override { return mesh_.triangles.size(); }
@@ -204,6 +223,19 @@ private:
     {
         const MeshData::Triangle& t = mesh_.triangles[primitive];
         return {mesh_.positions[t[0]], mesh_.positions[t[1]], mesh_.positions[t[2]]};
+    }
+
+    double triangle_area(std::uint32_t primitive) const
+    {
+        return length(triangle_cross(corners(primitive).edges())) * 0.5;
+    }
+
+    // Zero for triangles without area.
+    Vec3f triangle_normal(std::uint32_t primitive) const
+    {
+        const Vec3d normal = triangle_cross(corners(primitive).edges());
+        const double size = length(normal);
+        return size > 0.0 ? front_normal(primitive, normal * (1.0 / size)) : Vec3f(0.f);
     }
 
     // On the side of the vertex normals.

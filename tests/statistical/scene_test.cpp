@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 
-// What the scene answers: emitters in proportion to power, densities that agree, light that scales.
+// What the scene answers: emitters as often as their density says, densities that agree, light that scales.
 
 #include "support/catch.h"
 #include "support/scene_text.h"
 #include "support/statistics.h"
-
-#include <map>
 
 #include <fmt/format.h>
 
@@ -33,34 +31,39 @@ constexpr const char* lamps = R"(
 
 } // namespace
 
-TEST_CASE("emitters are chosen in proportion to their power", "[statistical][scene]")
+TEST_CASE("each emitter is chosen as often as the density of its samples says", "[statistical][scene]")
 {
     const LoadedScene loaded = test::load_text(lamps);
     const Scene& scene = loaded.job.scene;
     REQUIRE(scene.emitters().size() == 5);
-    double total = 0.0;
-    for (const Emitter* emitter : scene.emitters()) total += emitter->power();
+    const Vec3f from(0.f, 0.5f, 0.f); // every lamp can be seen from here, so that no sample is refused
 
-    const bool passed = test::check_statistic(
-        "choice of emitter",
-        [&](std::uint64_t samples, std::uint64_t seed) {
-            test::TestRandom random(seed);
-            std::map<const Emitter*, double> chosen;
-            for (std::uint64_t i = 0; i < samples; ++i) {
-                const double u_choice = random.next_double();
-                // From inside the floor's hemisphere every lamp can be seen, so that no sample is refused.
-                const auto light = scene.sample_emitter({Vec3f(0.f, 0.5f, 0.f)}, u_choice, random.next_2d());
-                if (light) ++chosen[light->emitter];
-            }
-            double statistic = 0.0;
-            for (const Emitter* emitter : scene.emitters()) {
-                const double expected = static_cast<double>(samples) * emitter->power() / total;
-                statistic += sqr(chosen[emitter] - expected) / expected;
-            }
-            return test::Outcome{test::chi2_survival(statistic, 4), fmt::format("chi2 {}", statistic)};
-        },
-        50000, test::significance);
-    CHECK(passed);
+    // The share of the pdf that is the choice: the rest is the emitter's own.
+    const auto probability = [&](const EmitterSample& light) {
+        if (light.is_delta) return light.pdf;
+        SurfacePoint at;
+        at.position = light.position;
+        at.geometric_normal = light.normal;
+        const SurfacePoint* hit = light.distance == infinity ? nullptr : &at;
+        return light.pdf / light.emitter->evaluate(from, light.wi, hit, Measure::best).pdf;
+    };
+    for (std::uint32_t i = 0; i < 5; ++i)
+        for (const Vec3f& normal : {Vec3f(0.f), Vec3f(0.6f, 0.8f, 0.f)})
+            test::check_mean(
+                fmt::format("choice of emitter {}, normal {}", i, normal.x), 1.0,
+                [&](std::uint64_t samples, std::uint64_t seed) {
+                    test::TestRandom random(seed);
+                    MeanAndVariance ones;
+                    for (std::uint64_t k = 0; k < samples; ++k) {
+                        const double u_choice = random.next_double();
+                        const auto light = scene.sample_emitter({from, normal}, u_choice, random.next_2d());
+                        const bool chosen = light && light->emitter_index == i;
+                        if (chosen) CHECK(light->emitter == scene.emitters()[i]);
+                        ones.add(chosen ? 1.0 / static_cast<double>(probability(*light)) : 0.0);
+                    }
+                    return ones;
+                },
+                20000, test::sidak_level(test::significance, 10));
 }
 
 TEST_CASE("what a ray sees has the density with which it would have been sampled", "[statistical][scene]")

@@ -108,7 +108,8 @@ struct Count {
 // Rays that leave one flat shape.
 void leave(const Scene& scene, double size, int rays, TestRandom& random, Count& count)
 {
-    const Shape& shape = *scene.objects()[0].shape;
+    Shape& shape = *scene.objects()[0].shape;
+    shape.prepare_sampling();
     for (int i = 0; i < rays; ++i) {
         const double u_select = random.next_double();
         Vec2f u = random.next_2d();

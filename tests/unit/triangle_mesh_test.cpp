@@ -136,7 +136,9 @@ TEST_CASE("the front of a mesh is the side of its vertex normals", "[unit][shape
     Meshes meshes;
     const std::string upside_down = "v 0 0 0\nv 2 0 0\nv 0 2 0\nvn 0 0 -1\nf 1//1 2//1 3//1\n";
     CHECK(meshes.read(upside_down)->surface_at(downwards, 0).geometric_normal == Vec3f(0, 0, -1));
-    CHECK(meshes.read(upside_down)->sample_area(0.5, Vec2f(0.5f)).normal == Vec3f(0, 0, -1));
+    const auto sampled = meshes.read(upside_down);
+    sampled->prepare_sampling();
+    CHECK(sampled->sample_area(0.5, Vec2f(0.5f)).normal == Vec3f(0, 0, -1));
 
     // A mirror turns the winding round; given normals are mirrored with the mesh, and the front follows them.
     const std::string upright = "v 0 0 1\nv 2 0 1\nv 0 2 1\nvn 0 0 1\nf 1//1 2//1 3//1\n";
@@ -184,6 +186,7 @@ TEST_CASE("points of a mesh lie within their clearance of the triangle's plane",
             const auto mesh = meshes.read(one_triangle, place);
             Recorder recorder;
             mesh->add_to(recorder);
+            mesh->prepare_sampling();
             const Vec3d p0(recorder.positions[0]);
             const Vec3d normal =
                 normalize(cross(Vec3d(recorder.positions[1]) - p0, Vec3d(recorder.positions[2]) - p0));
@@ -207,6 +210,7 @@ TEST_CASE("points on a mesh are uniform over its area", "[unit][shape]")
     const auto mesh =
         meshes.read("v 0 0 0\nv 2 0 0\nv 0 2 0\nv 4 0 0\nv 6 0 0\nv 4 0 6\nf 1 2 3\nf 1 2 2\nf 4 5 6\n");
     CHECK(mesh->area() == 8.f);
+    mesh->prepare_sampling();
     TestRandom random;
     int on_first = 0;
     constexpr int count = 4000;
