@@ -2,13 +2,10 @@
 #include "cli/commands.h"
 #include "cli/comparison_text.h"
 #include "cli/console.h"
-#include "cli/json.h"
+#include "cli/estimators.h"
 #include "cli/manuals.h"
 #include "cli/outputs.h"
 #include "cli/progress.h"
-#include "cli/text.h"
-
-#include "plumb/compare.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -17,38 +14,16 @@ namespace plumb {
 
 namespace {
 
-// A picture of the scene by one estimator.
-struct Estimate {
-    std::string name;
-    std::uint64_t samples_per_pixel;
-    Image image;
-};
-
-struct Pair {
-    const Estimate& a;
-    const Estimate& b;
-    Comparison comparison;
-};
-
-// As many samples as take that long, by the speed of a few.
-std::uint64_t samples_in(double seconds, const RenderJob& job, RenderOptions options)
+// As many samples as take that long.
+std::uint64_t samples_in(double seconds, const RenderJob& job, const RenderOptions& options)
 {
-    constexpr std::uint64_t few = 4;
-    options.samples_per_pixel = few;
-    const double per_sample = std::max(render(job, options).seconds, 1e-3) / static_cast<double>(few);
-    return static_cast<std::uint64_t>(
-        std::clamp(seconds / per_sample, static_cast<double>(few), static_cast<double>(film_max_samples)));
+    const double samples = seconds / seconds_per_sample(job, options);
+    return static_cast<std::uint64_t>(std::clamp(samples, 4.0, static_cast<double>(film_max_samples)));
 }
 
-Estimate estimate(const Options& options, const std::string& integrator, const std::string& sampler,
-                  std::uint64_t number, double seconds)
+Estimate estimate(const Options& options, const Estimator& estimator, std::uint64_t number, double seconds)
 {
-    Options one = options;
-    one.load.integrator = integrator;
-    if (!sampler.empty()) one.load.sampler = sampler;
-    one.quiet = options.quiet || number > 0; // what loading says, once
-    const LoadedScene scene = load_and_log(one);
-
+    const LoadedScene scene = load_for(estimator, options, number == 0);
     RenderOptions how = options.render;
     how.seed += number; // independent pictures: independent seeds
     how.samples_per_pixel =
@@ -57,67 +32,9 @@ Estimate estimate(const Options& options, const std::string& integrator, const s
     const RenderState result =
         render(scene.job, how, [&](const Progress& progress) { display.show(progress); });
 
-    Estimate made{sampler.empty() ? integrator : integrator + " with " + sampler, how.samples_per_pixel,
-                  result.film.develop(Channels::color_and_evidence)};
+    Estimate made{estimator.name(), how.samples_per_pixel, result.film.develop(Channels::color_and_evidence)};
     made.image.metadata.emplace_back("plumb:samplesPerPixel", static_cast<int>(how.samples_per_pixel));
     return made;
-}
-
-std::string pair_text(const Pair& pair)
-{
-    const Significance& found = pair.comparison.significance;
-    std::string text = fmt::format(
-        "  {} and {}: {}, p {:.3g}", pair.a.name, pair.b.name,
-        pair.comparison.outcome == CompareOutcome::passes ? "agree" : outcome_word(pair.comparison.outcome),
-        found.p);
-    if (pair.comparison.outcome == CompareOutcome::undecided && !found.reason.empty())
-        text += fmt::format(" ({})", found.reason);
-    if (pair.comparison.outcome == CompareOutcome::passes && found.differing + found.untested > 0)
-        text += fmt::format(" ({} of {} pixels differ, {} are undecided)", found.differing, found.pixels,
-                            found.untested);
-    if (found.detectable_bias)
-        text += fmt::format("; a bias of {:.3g} % would have been found with 90 % probability",
-                            *found.detectable_bias * 100.0);
-    return text + "\n";
-}
-
-CompareOutcome outcome_of(const std::vector<Pair>& pairs)
-{
-    CompareOutcome worst = CompareOutcome::passes;
-    for (const Pair& pair : pairs) {
-        if (pair.comparison.outcome == CompareOutcome::differs) return CompareOutcome::differs;
-        if (pair.comparison.outcome == CompareOutcome::undecided) worst = CompareOutcome::undecided;
-    }
-    return worst;
-}
-
-const char* verdict_of(CompareOutcome outcome)
-{
-    switch (outcome) {
-    case CompareOutcome::passes: return "agree";
-    case CompareOutcome::differs: return "differ";
-    case CompareOutcome::undecided: return "undecided";
-    }
-    return "";
-}
-
-// What may decide it. An estimator that all undecided pairs share, and others do not, is the one that rarely finds some
-// of the light.
-std::string advice(const std::vector<Estimate>& estimates, const std::vector<Pair>& pairs)
-{
-    const auto is_shared = [&](const Estimate& estimate) {
-        return std::all_of(pairs.begin(), pairs.end(), [&](const Pair& pair) {
-            return pair.comparison.outcome != CompareOutcome::undecided || &pair.a == &estimate ||
-                   &pair.b == &estimate;
-        });
-    };
-    std::string names;
-    for (const Estimate& estimate : estimates)
-        if (estimates.size() > 2 && is_shared(estimate))
-            names += (names.empty() ? "" : " or ") + estimate.name;
-    std::string text = "more samples may decide it";
-    if (!names.empty()) text += "; or leave out " + names + ", which finds some of the light too rarely";
-    return text + "\n";
 }
 
 std::string agreement_json(const Options& options, const std::vector<Estimate>& estimates,
@@ -136,33 +53,9 @@ std::string agreement_json(const Options& options, const std::vector<Estimate>& 
         json.end_object();
     }
     json.end_array();
-    json.begin_array("pairs");
-    for (const Pair& pair : pairs) {
-        json.begin_object();
-        json.text("a", pair.a.name);
-        json.text("b", pair.b.name);
-        json.text("outcome", outcome_word(pair.comparison.outcome));
-        if (!pair.comparison.significance.reason.empty())
-            json.text("reason", pair.comparison.significance.reason);
-        json.number("p", pair.comparison.significance.p);
-        if (const auto& bias = pair.comparison.significance.detectable_bias)
-            json.number("detectable_bias", *bias);
-        else
-            json.null("detectable_bias");
-        json.end_object();
-    }
-    json.end_array();
+    write_pairs(json, pairs);
     json.end_object();
     return std::move(json).finish();
-}
-
-void check_request(const Options& options)
-{
-    const AgreeRequest& request = options.agree;
-    if (request.integrators.size() * std::max<std::size_t>(request.samplers.size(), 1) < 2)
-        throw UsageError("agree needs two estimators or more; name them with --integrators");
-    if (options.stop.seconds && options.load.samples_per_pixel)
-        throw UsageError("--time and --spp exclude each other");
 }
 
 } // namespace
@@ -180,28 +73,13 @@ std::string_view agree_manual()
 
 int agree_command(const Options& options)
 {
-    check_request(options);
+    const std::vector<Estimator> estimators = estimators_of(options);
     check_outputs({}, options.json);
-    const AgreeRequest& request = options.agree;
-    const std::vector<std::string> samplers =
-        request.samplers.empty() ? std::vector<std::string>{""} : request.samplers;
-    const double seconds_each = options.stop.seconds.value_or(0.0) /
-                                static_cast<double>(request.integrators.size() * samplers.size());
-
+    const double seconds_each = options.stop.seconds.value_or(0.0) / static_cast<double>(estimators.size());
     std::vector<Estimate> estimates;
-    for (const std::string& integrator : request.integrators)
-        for (const std::string& sampler : samplers)
-            estimates.push_back(estimate(options, integrator, sampler, estimates.size(), seconds_each));
-
-    CompareOptions how = options.compare.how;
-    how.flip = FlipMode::none;
-    how.significance /= static_cast<double>(estimates.size() * (estimates.size() - 1) / 2); // Bonferroni
-    std::vector<Pair> pairs;
-    for (std::size_t i = 0; i < estimates.size(); ++i)
-        for (std::size_t j = i + 1; j < estimates.size(); ++j)
-            pairs.push_back(
-                {estimates[i], estimates[j], compare(estimates[i].image, estimates[j].image, how)});
-
+    for (const Estimator& estimator : estimators)
+        estimates.push_back(estimate(options, estimator, estimates.size(), seconds_each));
+    const std::vector<Pair> pairs = compare_pairs(estimates, options.compare.how);
     const CompareOutcome outcome = outcome_of(pairs);
     if (!options.quiet && options.json != "-") {
         print_output(options.subject + "\n");

@@ -18,6 +18,7 @@ int merge_command(const Options& options);
 int check_command(const Options& options);
 int compare_command(const Options& options);
 int agree_command(const Options& options);
+int race_command(const Options& options);
 int test_command(const Options& options);
 int batch_command(const Options& options);
 

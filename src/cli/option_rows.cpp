@@ -24,10 +24,11 @@ constexpr unsigned both = render_only | replay_only;
 constexpr unsigned merge_only = verb_bit(Verb::merge);
 constexpr unsigned test_only = verb_bit(Verb::test);
 constexpr unsigned compare_only = verb_bit(Verb::compare);
-constexpr unsigned agree_only = verb_bit(Verb::agree);
+constexpr unsigned race_only = verb_bit(Verb::race);
+constexpr unsigned agree_or_race = verb_bit(Verb::agree) | race_only;
 constexpr unsigned check_only = verb_bit(Verb::check);
 constexpr unsigned batch_only = verb_bit(Verb::batch);
-constexpr unsigned loads_scene = both | agree_only | check_only;
+constexpr unsigned loads_scene = both | agree_or_race | check_only;
 constexpr unsigned loads = loads_scene | test_only; // with the options of load_scene()
 constexpr unsigned every_verb = ~0u;
 
@@ -73,7 +74,7 @@ const OptionRow rows[] = {
      "leave the error bars out of .exr files: variance.R, variance.G,\n"
      "variance.B and contributing",
      [](Options& o, Name, Text) { o.variance = false; }},
-    {Topic::output, rendering | merge_only | test_only | compare_only | agree_only, "--json", "FILE",
+    {Topic::output, rendering | merge_only | test_only | compare_only | agree_or_race, "--json", "FILE",
      "write a report of the run; - is standard output", [](Options& o, Name, Text t) { o.json = t; }},
     {Topic::output, batch_only, "--out", "FOLDER", "for pictures and reports (default batch/SUITE)",
      [](Options& o, Name n, Text t) {
@@ -116,9 +117,9 @@ const OptionRow rows[] = {
     {Topic::state, merge_only, "--allow-missing", "", "make the picture although samples are missing",
      [](Options& o, Name, Text) { o.allow_missing = true; }},
 
-    {Topic::picture, both | agree_only, "--spp", "N", "samples per pixel (default: the scene's)",
+    {Topic::picture, both | agree_or_race, "--spp", "N", "samples per pixel (default: the scene's)",
      [](Options& o, Name n, Text t) { o.load.samples_per_pixel = parse_integer(n, t, 1, film_max_samples); }},
-    {Topic::picture, both | test_only | agree_only, "--seed", "N",
+    {Topic::picture, both | test_only | agree_or_race, "--seed", "N",
      "of the random numbers, 64 bits (default 0)",
      [](Options& o, Name n, Text t) { o.render.seed = parse_integer(n, t, 0, UINT64_MAX); }},
     {Topic::picture, loads_scene, "--size", "WxH", "resolution (default: the scene's)",
@@ -130,13 +131,15 @@ const OptionRow rows[] = {
      [](Options& o, Name, Text t) { o.load.integrator = t; }},
     {Topic::picture, both, "--sampler", "TYPE", "instead of the scene's",
      [](Options& o, Name, Text t) { o.load.sampler = t; }},
-    {Topic::picture, agree_only, "--integrators", "TYPE,...",
+    {Topic::picture, agree_or_race, "--integrators", "TYPE,...",
      "which estimators (default path,path_nee,path_mis)",
-     [](Options& o, Name n, Text t) { o.agree.integrators = parse_list(n, t); }},
-    {Topic::picture, agree_only, "--samplers", "TYPE,...",
+     [](Options& o, Name n, Text t) { o.estimators.integrators = parse_list(n, t); }},
+    {Topic::picture, agree_or_race, "--samplers", "TYPE,...",
      "each estimator with each of them (default: the scene's)",
-     [](Options& o, Name n, Text t) { o.agree.samplers = parse_list(n, t); }},
-    {Topic::picture, render_only | agree_only, "--time", "T",
+     [](Options& o, Name n, Text t) { o.estimators.samplers = parse_list(n, t); }},
+    {Topic::picture, race_only, "--rounds", "N", "pictures by each estimator, of --spp samples (default 16)",
+     [](Options& o, Name n, Text t) { o.race.rounds = parse_integer(n, t, 3, 10000); }},
+    {Topic::picture, render_only | agree_or_race, "--time", "T",
      "take about as long, in all: 90, 90s, 10m or 2h; rendering takes\nat most --spp samples",
      [](Options& o, Name n, Text t) { o.stop.seconds = parse_duration(n, t); }},
     {Topic::picture, render_only, "--target-error", "E",
@@ -178,7 +181,7 @@ const OptionRow rows[] = {
      [](Options& o, Name, Text) { o.batch.fail_fast = true; }},
     {Topic::running, batch_only, "--force", "", "render also what is up to date",
      [](Options& o, Name, Text) { o.batch.force = true; }},
-    {Topic::running, rendering | test_only | agree_only | batch_only, "-t,--threads", "N",
+    {Topic::running, rendering | test_only | agree_or_race | batch_only, "-t,--threads", "N",
      "how many (default: all there are)",
      [](Options& o, Name n, Text t) { o.render.threads = static_cast<int>(parse_integer(n, t, 1, 1024)); }},
     {Topic::running, loads, "--isa", "NAME", "of Embree: sse2, sse4.2, avx, avx2 or avx512 (default avx2)",
@@ -195,7 +198,7 @@ const OptionRow rows[] = {
     {Topic::path, replay_only, "--sample", "I", "which of its samples, counted from 0",
      [](Options& o, Name n, Text t) { o.sample = parse_integer(n, t, 0, UINT64_MAX); }},
 
-    {Topic::verdict, compare_only | agree_only, "--significance", "P",
+    {Topic::verdict, compare_only | agree_or_race, "--significance", "P",
      "chance to find a difference where there is none (default 0.01)",
      [](Options& o, Name n, Text t) { o.compare.how.significance = parse_double(n, t, 1e-9, 0.5); }},
     {Topic::verdict, compare_only, "--exact", "A|B", "this picture has no noise",
@@ -204,7 +207,7 @@ const OptionRow rows[] = {
      }},
     {Topic::verdict, compare_only, "--no-verdict", "", "ignore the noise: the limits of --max decide",
      [](Options& o, Name, Text) { o.compare.how.verdict = false; }},
-    {Topic::verdict, compare_only | agree_only, "--fail-percent", "P",
+    {Topic::verdict, compare_only | agree_or_race, "--fail-percent", "P",
      "of the pixels may differ or stay undecided (default 0)",
      [](Options& o, Name n, Text t) { o.compare.how.fail_percent = parse_double(n, t, 0.0, 100.0); }},
     {Topic::verdict, compare_only, "--max", "METRIC=X,...",

@@ -13,7 +13,7 @@
 
 namespace plumb {
 
-enum class Verb { render, types, info, replay, rerun, merge, test, compare, agree, check, batch };
+enum class Verb { render, types, info, replay, rerun, merge, test, compare, agree, race, check, batch };
 
 // The command line makes no sense: main() prints the message and exits with 2.
 class UsageError : public std::runtime_error {
@@ -29,10 +29,14 @@ struct CompareRequest {
     CompareOptions how;
 };
 
-// What `renderer agree` renders a scene with.
-struct AgreeRequest {
+// What `renderer agree` and `renderer race` render a scene with.
+struct EstimatorRequest {
     std::vector<std::string> integrators = {"path", "path_nee", "path_mis"};
     std::vector<std::string> samplers; // none: the scene's
+};
+
+struct RaceRequest {
+    std::uint64_t rounds = 16; // pictures by each estimator
 };
 
 // When a rendering ends, besides the number of samples: stop_rules.h.
@@ -90,7 +94,8 @@ struct Options {
     Vec2i pixel;          // to replay
     std::uint64_t sample = 0;
     CompareRequest compare;
-    AgreeRequest agree;
+    EstimatorRequest estimators;
+    RaceRequest race;
     BatchRequest batch;
     StopRequest stop;
     CheckpointRequest checkpoint;

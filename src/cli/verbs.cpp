@@ -30,6 +30,8 @@ constexpr VerbRow rows[] = {
      compare_command, compare_manual},
     {Verb::agree, "agree", "SCENE [options]", "do the estimators agree on a scene?", "scene file", 1, 1,
      agree_command, agree_manual},
+    {Verb::race, "race", "SCENE [options]", "which estimator is the most efficient?", "scene file", 1, 1,
+     race_command, race_manual},
     {Verb::test, "test", "FILE... [options]", "run a course's statistical tests", "test file", 1, any_number,
      test_command, test_manual},
     {Verb::batch, "batch", "SUITE [options]", "render and compare all pictures of a suite", "suite", 1, 1,

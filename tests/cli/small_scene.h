@@ -42,6 +42,33 @@ inline std::string small_scene(const std::string& integrator = R"(<integrator ty
 )";
 }
 
+// A ball on a floor below a large lamp: no estimator finds that hard.
+inline constexpr const char* easy_scene = R"(<scene dialect="plumb">
+  <sampler type="independent"><integer name="sampleCount" value="64"/></sampler>
+  <camera type="perspective">
+    <transform name="toWorld"><lookat origin="0,0,-0.9" target="0,0,1" up="0,1,0"/></transform>
+    <float name="fov" value="60"/><integer name="width" value="24"/><integer name="height" value="18"/>
+  </camera>
+  <shape type="rectangle"><vector name="normal" value="0,1,0"/><point name="center" value="0,-0.5,0"/>
+    <float name="width" value="9"/><float name="height" value="9"/>
+    <bsdf type="diffuse"><color name="albedo" value="0.7,0.6,0.5"/></bsdf></shape>
+  <shape type="sphere"><point name="center" value="0,0,1"/><float name="radius" value="0.4"/>
+    <bsdf type="diffuse"><color name="albedo" value="0.5,0.8,0.9"/></bsdf></shape>
+  <shape type="sphere"><point name="center" value="0,3,0"/><float name="radius" value="2"/>
+    <emitter type="area"><color name="radiance" value="1,1,1"/></emitter></shape>
+</scene>
+)";
+
+// The same with a lamp that few naive paths meet.
+inline std::string small_lamp_scene()
+{
+    std::string scene = easy_scene;
+    const std::string large = R"(<float name="radius" value="2"/>
+    <emitter type="area"><color name="radiance" value="1,1,1"/>)";
+    return scene.replace(scene.find(large), large.size(), R"(<float name="radius" value="0.02"/>
+    <emitter type="area"><color name="radiance" value="9999,9999,9999"/>)");
+}
+
 // A folder with the small scene in scene.xml.
 struct SceneFolder : TempFolder {
     SceneFolder() { write("scene.xml", small_scene()); }

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+
+#include "cli/race_statistics.h"
+
+#include "plumb/mean_and_variance.h"
+#include "plumb/statistics.h"
+#include "support/catch.h"
+#include "support/random.h"
+
+using namespace plumb;
+
+namespace {
+
+using Picture = std::vector<double>;
+
+Rounds rounds_of(const std::vector<double>& seconds, const std::vector<Picture>& pictures)
+{
+    Picture mean(pictures[0].size(), 0.0);
+    for (const Picture& picture : pictures)
+        for (std::size_t i = 0; i < mean.size(); ++i)
+            mean[i] += picture[i] / static_cast<double>(pictures.size());
+    Rounds rounds{seconds, {}};
+    for (const Picture& picture : pictures) {
+        MeanAndVariance squares;
+        for (std::size_t i = 0; i < mean.size(); ++i) squares.add(sqr(picture[i] - mean[i]));
+        rounds.deviations.push_back(squares.mean());
+    }
+    return rounds;
+}
+
+// Time times variance of the rounds but one.
+double cost_without(const std::vector<double>& seconds, const Picture& values, std::size_t left_out)
+{
+    MeanAndVariance time, value;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (i == left_out) continue;
+        time.add(seconds[i]);
+        value.add(values[i]);
+    }
+    return time.mean() * value.variance();
+}
+
+} // namespace
+
+TEST_CASE("the efficiency and its interval are those of the jackknife, round by round", "[unit][race]")
+{
+    const std::vector<double> seconds_a = {1.0, 1.5, 1.25, 3.0, 1.0}, seconds_b = {2.0, 2.5, 2.0, 4.0, 2.25};
+    const Picture a = {1.0, 2.0, 4.0, 8.0, 16.0}, b = {0.0, 3.0, 1.0, 5.0, 2.0}; // one pixel, five rounds
+    const Rounds rounds_a = rounds_of(seconds_a, {{1.0}, {2.0}, {4.0}, {8.0}, {16.0}});
+    const Rounds rounds_b = rounds_of(seconds_b, {{0.0}, {3.0}, {1.0}, {5.0}, {2.0}});
+    CHECK(rounds_a.mean_seconds() == Approx(1.55));
+    CHECK(rounds_a.variance() == Approx(37.2)); // (341 - 31^2 / 5) / 4
+
+    MeanAndVariance logs;
+    for (std::size_t i = 0; i < 5; ++i)
+        logs.add(std::log(cost_without(seconds_b, b, i) / cost_without(seconds_a, a, i)));
+    const double ratio = cost_without(seconds_b, b, 5) / cost_without(seconds_a, a, 5); // none left out
+    const double half = student_t_quantile(0.05, 4.0) * std::sqrt(logs.variance() * 16.0 / 5.0);
+    const auto found = efficiency_ratio(rounds_a, rounds_b);
+    REQUIRE(found);
+    CHECK(found->value == Approx(ratio).epsilon(1e-9));
+    CHECK(found->low == Approx(ratio * std::exp(-half)).epsilon(1e-9));
+    CHECK(found->high == Approx(ratio * std::exp(half)).epsilon(1e-9));
+}
+
+TEST_CASE("95 of 100 intervals hold the efficiency", "[unit][race]")
+{
+    constexpr int trials = 1000, pixels = 40, count = 16;
+    test::TestRandom random(5);
+    int held = 0;
+    for (int trial = 0; trial < trials; ++trial) {
+        std::vector<double> seconds[2];
+        std::vector<Picture> pictures[2];
+        for (int round = 0; round < count; ++round) {
+            const double load = random.between(1.0, 2.0); // of the machine, in that round
+            for (int i = 0; i < 2; ++i) {
+                seconds[i].push_back(load * random.between(0.9, 1.1));
+                Picture picture;
+                for (int pixel = 0; pixel < pixels; ++pixel)
+                    picture.push_back((1.0 + i) * random.between(-1.0, 1.0));
+                pictures[i].push_back(picture);
+            }
+        }
+        const auto found =
+            efficiency_ratio(rounds_of(seconds[0], pictures[0]), rounds_of(seconds[1], pictures[1]));
+        REQUIRE(found);
+        held += found->low <= 4.0 && found->high >= 4.0; // half the spread, in the same time
+    }
+    CHECK(held >= 930);
+    CHECK(held <= 970);
+}
+
+TEST_CASE("pictures without noise have no efficiency", "[unit][race]")
+{
+    const Rounds noisy{{1.0, 1.0, 1.0}, {0.5, 0.25, 0.125}}, exact{{1.0, 1.0, 1.0}, {0.0, 0.0, 0.0}};
+    CHECK_FALSE(efficiency_ratio(noisy, exact));
+    CHECK_FALSE(efficiency_ratio(exact, noisy));
+    CHECK(efficiency_ratio(noisy, noisy)->value == 1.0);
+}
