@@ -4,11 +4,11 @@
 #include "cli/exit_codes.h"
 #include "cli/manuals.h"
 #include "cli/text.h"
+#include "core/memory.h"
 
 #include "plumb/check.h"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 namespace plumb {
 
@@ -19,9 +19,7 @@ constexpr double megabyte = 1e6;
 // What the scene has taken so far, and what film and picture will.
 std::string memory_text(const LoadedScene& scene)
 {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    const double now = static_cast<double>(usage.ru_maxrss) * 1024.0; // Linux counts in kibibytes
+    const auto now = static_cast<double>(peak_memory());
     const Vec2i size = scene.job.camera->resolution();
     constexpr double picture_bytes = 7 * sizeof(float);
     const double later = static_cast<double>(size.x) * static_cast<double>(size.y) *

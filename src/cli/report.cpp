@@ -3,9 +3,9 @@
 
 #include "cli/json.h"
 #include "cli/text.h"
+#include "core/memory.h"
 
 #include <ctime>
-#include <sys/resource.h>
 #include <unistd.h>
 
 namespace plumb {
@@ -131,9 +131,7 @@ Report make_report(const Options& options, const LoadedScene& scene, const Rende
 
 void note_machine(Report& report)
 {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    report.peak_memory = static_cast<std::uint64_t>(usage.ru_maxrss) * 1024; // Linux counts in kibibytes
+    report.peak_memory = peak_memory();
 
     char host[256] = "";
     if (gethostname(host, sizeof host - 1) == 0) report.host = host;

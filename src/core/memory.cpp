@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <fstream>
 #include <string>
+#include <string_view>
 
 #include <sys/resource.h>
 
@@ -19,17 +20,19 @@ std::optional<std::uint64_t> first_number(const char* path)
     return {};
 }
 
-// Of the whole machine; Linux only.
+// The bytes of a line like "MemAvailable:  12345 kB"; Linux only.
+std::optional<std::uint64_t> bytes_of(const char* path, std::string_view key)
+{
+    std::ifstream file(path);
+    for (std::string line; std::getline(file, line);)
+        if (line.starts_with(key)) return std::stoull(line.substr(key.size())) * 1024;
+    return {};
+}
+
+// Of the whole machine.
 std::optional<std::uint64_t> machine_memory()
 {
-    std::ifstream file("/proc/meminfo");
-    std::string key, unit;
-    std::uint64_t kibibytes = 0;
-    while (file >> key >> kibibytes) {
-        std::getline(file, unit);
-        if (key == "MemAvailable:") return kibibytes * 1024;
-    }
-    return {};
+    return bytes_of("/proc/meminfo", "MemAvailable:");
 }
 
 // Of the container that this process runs in.
@@ -56,6 +59,14 @@ std::optional<std::uint64_t> available_memory()
     for (const auto& bytes : {machine_memory(), container_memory(), process_limit()})
         if (bytes) least = std::min(*bytes, least.value_or(*bytes));
     return least;
+}
+
+std::uint64_t peak_memory()
+{
+    if (const auto peak = bytes_of("/proc/self/status", "VmHWM:")) return *peak;
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
 
 } // namespace plumb

@@ -182,3 +182,19 @@ TEST_CASE("the header says how to make the image again", "[cli][header]")
     const std::string bytes = read_bytes(folder / "a.exr");
     CHECK(bytes.find(folder.path().string()) == std::string::npos);
 }
+
+TEST_CASE("the peak memory is the program's, not that of the one which started it", "[cli][render]")
+{
+    constexpr std::size_t large = 600'000'000;
+    const std::vector<char> ours(large, 'x');
+    const SceneFolder folder;
+    const RunResult run = folder.run({"scene.xml", "-o", "a.exr", "--json", "-", "--quiet"});
+    REQUIRE(run.exit_code == 0);
+    const std::string key = "\"peak_memory_bytes\": ";
+    const std::size_t place = run.out.find(key);
+    REQUIRE(place != std::string::npos);
+    const std::size_t peak = std::stoull(run.out.substr(place + key.size()));
+    CHECK(peak > 1'000'000);
+    CHECK(peak < large);
+    CHECK(ours.back() == 'x');
+}
