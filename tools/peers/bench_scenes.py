@@ -106,7 +106,7 @@ def table(camera, quick):
     glass = ("translate", (-0.5, 0.002, 0.3))
     backdrop = meshes.read_flat_obj("backdrop", SCENES / "common/meshes/backdrop.obj")
     shapes = [
-        panel((-2.6, 2.6, -1.8), (2.2, -2.3, 1.7), 1.0, 1.0, BLACK, (80.0, 64.0, 46.0)),
+        panel((-2.6, 2.6, -1.8), (2.2, -2.3, 1.7), 2.0, 2.0, BLACK, (20.0, 16.0, 11.5)),
         panel((0.5, 5.0, 1.0), (0, -1, 0), 4.0, 3.0, BLACK, (4.8, 5.6, 6.6)),
         Shape("mesh", diffuse(0.42, 0.46, 0.5), mesh=backdrop, steps=[("translate", (0.0, -1.6, 0.0))]),
         part("table_top", diffuse(wood())),

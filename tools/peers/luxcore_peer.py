@@ -56,6 +56,9 @@ def material(name, shape, folder):
         if isinstance(p["albedo"], Picture):
             texture = f"scene.textures.{name}"
             found |= {f"{texture}.type": "imagemap", **image(texture, folder, p["albedo"])}
+            # Row 0 is the top one.
+            found |= {f"{texture}.mapping.type": "uvmapping2d", f"{texture}.mapping.uvscale": (1.0, -1.0)}
+            found |= {f"{texture}.mapping.uvdelta": (0.0, 1.0)}
             found[f"scene.materials.{name}.kd"] = name
         return found
     white = (1.0, 1.0, 1.0)
@@ -84,10 +87,9 @@ class Peer:
             self.add_shape(f"shape{i}", shape, folder, meshes)
         for light in scene.lights:
             assert light.kind == "environment" and light.color == (1.0, 1.0, 1.0)
-            # Its z is up, and it looks from inside: Plumb's first column is half a turn away.
+            # The picture's z is up, and it is seen from the other side: y and z change places.
             values = {"scene.lights.sky.type": "infinite", **image("scene.lights.sky", folder, light.picture)}
-            turn = np.diag([1.0, 1.0, 1.0, 1.0])
-            values["scene.lights.sky.transformation"] = turn.T.ravel().tolist()
+            values["scene.lights.sky.transformation"] = np.eye(4)[[0, 2, 1, 3]].ravel().tolist()
             self.scene.Parse(properties(values))
 
     def add_camera(self, camera):

@@ -77,7 +77,7 @@ def measure(name, configurations, folder, options):
             racer = renderers.start(configuration, scene, folder, options)
             result |= {"version": racer.version, "loads": racer.loads, "base_spp": samples_for(racer, options.shortest)}
             racers[configuration.name] = racer
-            converged[configuration.name] = converge(racer, result["base_spp"], options.replicates)
+            converged[configuration.name] = converge(racer, options.longer * result["base_spp"], options.replicates)
             pictures.write(folder / (configuration.name + ".exr"), *converged[configuration.name], options.replicates)
         except renderers.Failed as failure:
             result["left_out"] = str(failure)
@@ -91,7 +91,7 @@ def measure(name, configurations, folder, options):
             results[other]["agrees"] = {"outcome": "passes", "with": None}
             continue
         found = pictures.compare(renderers.PLUMB, folder / (other + ".exr"), folder / (first + ".exr"), options.significance,
-                                 options.fail_percent)  # fmt: skip
+                                 options.undecided_percent)  # fmt: skip
         results[other]["agrees"] = found | {"with": first}
         say(f"{name}: {other} and {first}: {found['outcome']}, p {found['p']:.3g}, "
             f"{found['differing']} of {found['pixels']} pixels differ, {found['undecided']} undecided, means {found['means']}")  # fmt: skip

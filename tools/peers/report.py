@@ -54,9 +54,10 @@ def verdict(result):
     if found["with"] is None:
         return "itself"
     bias = found["detectable_bias"]
-    within = f", within {100 * bias:.2g} %" if bias else ""
     if found["outcome"] == "passes":
-        return "yes" + within
+        within = f", within {100 * bias:.2g} %" if bias else ""
+        undecided = f", {100 * found['undecided'] / found['pixels']:.2g} % of pixels undecided" if found["undecided"] else ""
+        return "yes" + within + undecided
     means = found["means"]
     away = f"{100 * (means[0] / means[1] - 1):+.2g} % in all, " if means[1] else ""
     if found["outcome"] == "differs":
@@ -123,7 +124,8 @@ def summary(found):
 def text(found):
     width, height = found["size"]
     head = f"""Seconds to equal RMSE. {found["processor"]}, {found["threads"]} threads, {found["date"]}; {width}x{height} pixels, box filter, no
-limit of depth; medians of {found["rounds"]} interleaved rounds, loading not included. Versions: {", ".join(versions(found))}.
+limit of depth; medians of {found["rounds"]} interleaved rounds. Loading, from the start of a process to a first picture of one
+sample per pixel, is not included. Versions: {", ".join(versions(found))}.
 
 """
     parts = [f"\n### {scene['what']}\n\n{details(found, scene)}" for scene in found["scenes"].values()]
