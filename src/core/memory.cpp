@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <fstream>
+#include <memory>
 #include <string>
 
+#include <sys/mman.h>
 #include <sys/resource.h>
 
 namespace plumb {
@@ -56,6 +58,15 @@ std::optional<std::uint64_t> available_memory()
     for (const auto& bytes : {machine_memory(), container_memory(), process_limit()})
         if (bytes) least = std::min(*bytes, least.value_or(*bytes));
     return least;
+}
+
+void prefer_large_pages(void* begin, std::size_t bytes)
+{
+    constexpr std::size_t page = std::size_t{2} << 20;
+    void* first = begin;
+    std::size_t left = bytes;
+    if (!std::align(page, page, first, left)) return;
+    madvise(first, left / page * page, MADV_HUGEPAGE); // if it will not, the pages are small
 }
 
 } // namespace plumb

@@ -4,6 +4,7 @@
 // numbers (obj_scan.cpp) and faces (obj_faces.cpp, tinyobjloader) are read; then all are put together (obj_mesh.cpp).
 // What comes out does not depend on the chunks: errors are those of the first chunk that has one.
 
+#include "core/memory.h"
 #include "core/parallel.h"
 #include "io/obj_characters.h"
 #include "io/obj_mesh.h"
@@ -68,6 +69,7 @@ Text read_text(const std::filesystem::path& path)
     if (size > max_size) fail(path, "files of more than 8 GiB are not supported");
 
     Text text{std::make_unique_for_overwrite<char[]>(size + 1), size + 1};
+    prefer_large_pages(text.bytes.get(), text.size);
     const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
     if (file < 0) fail(path, std::strerror(errno));
     std::vector<int> problems((size + chunk_size - 1) / chunk_size, 0);
@@ -128,7 +130,9 @@ MeshData read_mesh(const std::filesystem::path& path)
     for (ObjCounts& count : before) count = std::exchange(all, all + count);
 
     ObjAttributes found;
-    found.positions.reserve(all.positions + 1); // MeshData
+    reserve_large_pages(found.positions, all.positions + 1); // MeshData
+    reserve_large_pages(found.uvs, all.uvs);
+    reserve_large_pages(found.normals, all.normals);
     found.positions.resize(all.positions);
     found.uvs.resize(all.uvs);
     found.normals.resize(all.normals);

@@ -2,6 +2,7 @@
 
 #include "io/obj_mesh.h"
 
+#include "core/memory.h"
 #include "core/parallel.h"
 #include "io/obj_polygon.h"
 #include "plumb/error.h"
@@ -193,7 +194,7 @@ public:
         std::size_t corners = 0;
         for (const ObjTriangles& chunk : chunks_) corners += chunk.corners.size();
         if (corners == 0) throw Error("no face has an area");
-        mesh_.triangles.reserve(corners / 3);
+        reserve_large_pages(mesh_.triangles, corners / 3);
         if (file_.with_uvs || file_.with_normals)
             share_corners();
         else
@@ -256,9 +257,9 @@ private:
         make_triangles([&](const ObjCorner& corner) { return numbers[corner]; });
 
         const std::size_t count = numbers.corners().size();
-        mesh_.positions.reserve(count + 1); // MeshData
-        if (file_.with_uvs) mesh_.uvs.reserve(count);
-        if (file_.with_normals) mesh_.normals.reserve(count);
+        reserve_large_pages(mesh_.positions, count + 1); // MeshData
+        if (file_.with_uvs) reserve_large_pages(mesh_.uvs, count);
+        if (file_.with_normals) reserve_large_pages(mesh_.normals, count);
         for (const ObjCorner& corner : numbers.corners()) {
             mesh_.positions.push_back(found_.positions[static_cast<std::size_t>(corner.position)]);
             if (file_.with_uvs) mesh_.uvs.push_back(found_.uvs[static_cast<std::size_t>(corner.uv)]);
