@@ -15,7 +15,7 @@ namespace plumb {
 struct MeshData {
     using Triangle = std::array<std::uint32_t, 3>;
 
-    std::vector<Vec3f> positions; // object space
+    std::vector<Vec3f> positions; // object space; read_obj leaves room for one more: see AccelBuilder
     std::vector<Vec3f> normals;   // one a position and of unit length, or empty
     std::vector<Vec2f> uvs;       // one a position, or empty
     std::vector<Triangle> triangles;

@@ -27,6 +27,14 @@ struct SceneOptions {
         "avx2"; // sse2, sse4.2, avx, avx2 or avx512: Embree traces with this and no other
 };
 
+// Bytes that a scene takes as long as it is there; and what Embree took at most while it built.
+struct SceneMemory {
+    std::uint64_t meshes = 0;
+    std::uint64_t acceleration = 0;
+    std::uint64_t acceleration_peak = 0;
+    std::uint64_t pictures = 0; // of environments
+};
+
 // Conventions. World space. Emitters are chosen in proportion to their power.
 class Scene {
 public:
@@ -68,6 +76,7 @@ public:
     const std::vector<SceneObject>& objects() const { return objects_; }
     Box3f bounds() const;
     std::uint64_t triangle_count() const;
+    SceneMemory memory() const;
     const SceneOptions& options() const { return options_; }
     std::string embree_version() const; // "3.13.5"
 

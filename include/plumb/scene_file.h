@@ -44,6 +44,7 @@ struct LoadedScene {
     std::string sampler;
     std::vector<InputFile> inputs; // scene files, meshes, images
     std::string input_hash;        // of them all and of what options and dialect make of them; 32 hex digits
+    std::uint64_t texture_bytes = 0; // of the pictures in textures
     std::vector<Diagnostic> warnings;
     double parse_seconds = 0.0; // XML, meshes and images
     double build_seconds = 0.0; // Embree

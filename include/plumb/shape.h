@@ -13,7 +13,8 @@
 namespace plumb {
 
 // Receives what a shape is made of; implemented over Embree, which shapes never see. The spans must live as long
-// as the shape: they are not copied.
+// as the shape: they are not copied. Embree reads 16 bytes at a position, so that 4 bytes after the last one must be
+// readable, too.
 class AccelBuilder {
 public:
     using Triangle = std::array<std::uint32_t, 3>;
@@ -58,6 +59,7 @@ public:
     virtual float area() const = 0;
     virtual Box3f bounds() const = 0;
     virtual std::uint64_t triangle_count() const { return 0; }
+    virtual std::uint64_t memory_bytes() const { return 0; } // of its mesh, if it has one
 };
 
 } // namespace plumb

@@ -21,6 +21,7 @@ public:
     // Bounds of every channel over all uv.
     virtual float min_value() const = 0;
     virtual float max_value() const = 0;
+    virtual std::uint64_t memory_bytes() const { return 0; } // of its picture, if it has one
 
 protected:
     Texture() = default;

@@ -47,12 +47,14 @@ std::string_view check_manual()
 int check_command(const Options& options)
 {
     const LoadedScene scene = load_and_log(options);
+    ImageLibrary::file(); // is loaded, since rendering takes its memory, too
+    const std::string memory = memory_text(scene);
     const std::vector<Doubt> doubts = find_doubts(scene.job);
     const bool is_clean = doubts.empty() && scene.warnings.empty();
     for (const Doubt& doubt : doubts)
         print_output(fmt::format("{}{}{}\n", doubt.object, doubt.object.empty() ? "" : ": ", doubt.text));
     if (!options.quiet) {
-        print_output(memory_text(scene) + "\n");
+        print_output(memory + "\n");
         if (is_clean) print_output("nothing is wrong or doubtful\n");
     }
     return is_clean ? exit_code::done : exit_code::differs;

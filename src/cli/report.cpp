@@ -58,6 +58,13 @@ void write_work(JsonWriter& json, const Report& report)
     json.integer("total", report.rays.total());
     json.end_object();
     json.number("rays_per_second", static_cast<double>(report.rays.total()) / report.render_seconds);
+    json.begin_object("memory_bytes");
+    json.integer("meshes", report.memory.meshes);
+    json.integer("acceleration", report.memory.acceleration);
+    json.integer("acceleration_while_built", report.memory.acceleration_peak);
+    json.integer("textures", report.memory.pictures + report.texture_bytes);
+    json.integer("film", report.film_bytes);
+    json.end_object();
     json.integer("peak_memory_bytes", report.peak_memory);
 }
 
@@ -118,6 +125,11 @@ Report make_report(const Options& options, const LoadedScene& scene, const Rende
     report.resolution = scene.job.camera->resolution();
     report.crop = options.render.crop;
     report.triangles = scene.job.scene.triangle_count();
+    report.memory = scene.job.scene.memory();
+    report.texture_bytes = scene.texture_bytes;
+    const PixelRect& window = state.film.window();
+    report.film_bytes = film_bytes_per_pixel * static_cast<std::uint64_t>(window.width) *
+                        static_cast<std::uint64_t>(window.height);
     report.parse_seconds = scene.parse_seconds;
     report.build_seconds = scene.build_seconds;
     report.render_seconds = state.seconds;

@@ -30,7 +30,10 @@ struct Report {
     std::string instruction_set;
     std::string embree_version;
     std::vector<std::string> outputs;
-    std::uint64_t peak_memory = 0; // bytes
+    SceneMemory memory;
+    std::uint64_t texture_bytes = 0;
+    std::uint64_t film_bytes = 0;
+    std::uint64_t peak_memory = 0; // bytes, of the whole process
     std::string host;
     std::string finished; // UTC, ISO 8601
 };

@@ -83,6 +83,7 @@ public:
     float power() const override { return static_cast<float>(integral_ * pi_d) * radius_ * radius_; }
 
     bool is_infinite() const override { return true; }
+    std::uint64_t memory_bytes() const override { return bitmap_ ? bitmap_->memory_bytes() : 0; }
 
 private:
     static constexpr double two_pi_ = 2.0 * pi_d;

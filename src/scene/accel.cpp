@@ -168,12 +168,10 @@ public:
     void add_triangles(std::span<const Vec3f> positions, std::span<const Triangle> triangles) override
     {
         RTCGeometry geometry = rtcNewGeometry(accel_.device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-        // Copied: Embree reads 4 bytes past the last vertex, which our vectors do not own.
-        void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                 sizeof(Vec3f), positions.size());
+        rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, positions.data(),
+                                   0, sizeof(Vec3f), positions.size());
         rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, triangles.data(), 0,
                                    sizeof(Triangle), triangles.size());
-        if (vertices != nullptr) std::memcpy(vertices, positions.data(), positions.size_bytes());
         attach(geometry);
     }
 
@@ -219,6 +217,7 @@ Scene::Accel::Accel(const std::vector<SceneObject>& objects, const std::string& 
             "Embree cannot start with instruction set {} (error {}): there may be too little memory",
             set.name, static_cast<int>(rtcGetDeviceError(nullptr))));
     rtcSetDeviceErrorFunction(device_, on_device_error, nullptr);
+    rtcSetDeviceMemoryMonitorFunction(device_, on_memory, this);
 
     scene_ = rtcNewScene(device_);
     rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST); // no holes along shared edges
@@ -295,6 +294,25 @@ std::optional<SurfacePoint> Scene::intersect(const Ray& ray) const
 bool Scene::occluded(const Ray& ray) const
 {
     return accel_->occluded(ray);
+}
+
+// Called from all threads, before memory is taken and after it is given back.
+bool Scene::Accel::on_memory(void* accel, std::ptrdiff_t bytes, bool)
+{
+    auto& self = *static_cast<Accel*>(accel);
+    const std::ptrdiff_t now = self.memory_ += bytes;
+    std::ptrdiff_t peak = self.memory_peak_;
+    while (now > peak && !self.memory_peak_.compare_exchange_weak(peak, now)) {
+    }
+    return true; // go on
+}
+
+SceneMemory Scene::Accel::memory() const
+{
+    SceneMemory memory;
+    memory.acceleration = static_cast<std::uint64_t>(memory_.load());
+    memory.acceleration_peak = static_cast<std::uint64_t>(memory_peak_.load());
+    return memory;
 }
 
 std::string Scene::Accel::version() const

@@ -6,6 +6,9 @@
 
 #include "plumb/scene.h"
 
+#include <atomic>
+#include <cstddef>
+
 struct RTCDeviceTy;
 struct RTCSceneTy;
 
@@ -30,6 +33,7 @@ public:
     Hit intersect(const Ray& ray) const;
     bool occluded(const Ray& ray) const;
     std::string version() const;
+    SceneMemory memory() const; // Embree's part of it
 
 private:
     class Builder;
@@ -39,6 +43,10 @@ private:
         std::uint32_t geometry;
     };
 
+    static bool on_memory(void* accel, std::ptrdiff_t bytes, bool post);
+
+    std::atomic<std::ptrdiff_t> memory_ = 0;
+    std::atomic<std::ptrdiff_t> memory_peak_ = 0;
     RTCDeviceTy* device_ = nullptr;
     RTCSceneTy* scene_ = nullptr;
     std::vector<std::uint32_t> object_of_geometry_;

@@ -113,6 +113,14 @@ std::uint64_t Scene::triangle_count() const
     return count;
 }
 
+SceneMemory Scene::memory() const
+{
+    SceneMemory memory = accel_->memory();
+    for (const SceneObject& object : objects_) memory.meshes += object.shape->memory_bytes();
+    for (const auto& light : lights_) memory.pictures += light->memory_bytes();
+    return memory;
+}
+
 std::string Scene::embree_version() const
 {
     return accel_->version();

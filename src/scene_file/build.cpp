@@ -2,6 +2,8 @@
 #include "scene_file/build.h"
 
 #include "core/memory.h"
+#include "core/parallel.h"
+#include "scene_file/build_child.h"
 #include "scene_file/values.h"
 
 #include <algorithm>
@@ -21,17 +23,6 @@ Property integer_property(std::uint64_t value)
     return property;
 }
 
-// An element that no file contains, with the place of another one.
-Element synthetic_element(const Element& at, std::string tag, const std::string& type)
-{
-    Element element;
-    element.tag = std::move(tag);
-    element.file = at.file;
-    element.tag_offset = at.tag_offset;
-    element.attributes.push_back({.name = "type", .value = type, .verbatim = false});
-    return element;
-}
-
 // Bytes for a picture: the film, the picture that it becomes, and a copy for writing.
 double picture_bytes(double pixels)
 {
@@ -49,10 +40,8 @@ public:
         check_attributes(root_, {}, {"dialect", "name", "id"}, diagnostics_);
         for (const Element& child : root_.children) {
             const std::string_view kind = kind_of(child);
-            if (kind == "shape")
-                build_shape(child);
-            else if (kind == "emitter")
-                build_light(child);
+            if (kind == "shape" || kind == "emitter")
+                add_child(child);
             else if (kind == "camera")
                 keep_only(camera_, child);
             else if (kind == "integrator")
@@ -64,6 +53,7 @@ public:
             else
                 reject_child(root_, child, diagnostics_);
         }
+        build_children();
         build_camera();
         build_integrator();
         build_sampler();
@@ -71,19 +61,33 @@ public:
     }
 
 private:
-    // The one child of its kind; the next one is an error.
     void keep_only(const Element*& kept, const Element& child)
     {
-        if (!kept) {
-            kept = &child;
-            return;
+        plumb::keep_only(kept, child, diagnostics_);
+    }
+
+    void add_child(const Element& child)
+    {
+        if (child.tag == "emitter" && child.value("type") == "environment") keep_only(environment_, child);
+        children_.push_back(&child);
+    }
+
+    void build_children()
+    {
+        std::vector<BuiltChild> built(children_.size());
+        parallel_for(children_.size(), 0,
+                     [&](std::size_t i) { built[i] = build_child(*children_[i], context_); });
+        for (std::size_t i = 0; i < built.size(); ++i) {
+            BuiltChild& child = built[i];
+            for (const Diagnostic& diagnostic : child.diagnostics.all())
+                diagnostics_.add(diagnostic.severity, diagnostic.location, diagnostic.message);
+            for (const std::filesystem::path& file : child.files) context_.add_file(file);
+            context_.texture_bytes += child.texture_bytes;
+            if (kind_of(*children_[i]) == "shape")
+                parts_.objects.push_back(std::move(child.object));
+            else if (child.light)
+                parts_.lights.push_back(std::move(child.light));
         }
-        const SourceLocation first = kept->place(), second = child.place();
-        const bool environment = child.tag == "emitter" && child.value("type") == "environment";
-        diagnostics_.error(second,
-                           fmt::format("a second {}; there can be only one, and the first is at {} {}",
-                                       environment ? "'environment'" : fmt::format("<{}>", child.tag),
-                                       first.file == second.file ? "line" : first.file, first.line));
     }
 
     void check_property(const Element& child)
@@ -94,67 +98,6 @@ private:
         if (find_ignored("scene", "", name)) return;
         diagnostics_.add(context_.lenient ? Severity::warning : Severity::error, property->name_at,
                          fmt::format("unknown parameter '{}' for <scene>; it takes none", name));
-    }
-
-    // --- Shapes and lights ---
-
-    void build_shape(const Element& element)
-    {
-        const Element* bsdf = nullptr;
-        const Element* emitter = nullptr;
-        for (const Element& child : element.children) {
-            if (child.tag == "bsdf") keep_only(bsdf, child);
-            if (child.tag == "emitter") keep_only(emitter, child);
-        }
-        SceneObject object;
-        ObjectReader reader(element, context_, {"bsdf", "emitter"});
-        object.shape = reader.build(shape_types());
-        object.bsdf = bsdf ? ObjectReader(*bsdf, context_).build(bsdf_types()) : default_bsdf(element);
-        if (emitter) object.emitter = build_area_light(*emitter, object.shape.get());
-        const SourceLocation at = element.place();
-        object.name = fmt::format("{} '{}' ({}:{})", element.tag, reader.type(),
-                                  std::filesystem::path(at.file).filename().string(), at.line);
-        parts_.objects.push_back(std::move(object));
-    }
-
-    std::unique_ptr<Bsdf> default_bsdf(const Element& shape)
-    {
-        return ObjectReader(synthetic_element(shape, "bsdf", "diffuse"), context_).build(bsdf_types());
-    }
-
-    // shape: null where it could not be built.
-    std::unique_ptr<Emitter> build_area_light(const Element& element, const Shape* shape)
-    {
-        ObjectReader reader(element, context_);
-        if (is_known_emitter(reader.type()) && reader.type() != "area")
-            diagnostics_.error(element.value_place(*element.attribute("type")),
-                               fmt::format("emitter '{}' has no shape; it must stand directly inside <scene>",
-                                           reader.type()));
-        else if (shape) {
-            reader.params().set_parent_shape(shape);
-            return reader.build(emitter_types());
-        }
-        reader.check(emitter_types());
-        return nullptr;
-    }
-
-    void build_light(const Element& element)
-    {
-        ObjectReader reader(element, context_);
-        if (reader.type() == "environment") keep_only(environment_, element);
-        if (reader.type() != "area") {
-            parts_.lights.push_back(reader.build(emitter_types()));
-            return;
-        }
-        diagnostics_.error(element.value_place(*element.attribute("type")),
-                           "emitter 'area' must stand inside the <mesh> or <shape> that emits");
-        reader.check(emitter_types());
-    }
-
-    static bool is_known_emitter(std::string_view type)
-    {
-        return std::any_of(emitter_types().begin(), emitter_types().end(),
-                           [&](const Entry<Emitter>& entry) { return entry.name == type; });
     }
 
     // --- Camera ---
@@ -264,6 +207,7 @@ private:
     LoadContext& context_;
     Diagnostics& diagnostics_;
     SceneParts parts_;
+    std::vector<const Element*> children_; // shapes and lights
     const Element* camera_ = nullptr;
     const Element* integrator_ = nullptr;
     const Element* sampler_ = nullptr;

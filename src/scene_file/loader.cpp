@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "core/parallel.h"
 #include "plumb/hash.h"
 #include "plumb/scene_file.h"
 #include "scene_file/build.h"
@@ -8,6 +9,7 @@
 
 #include <chrono>
 #include <fstream>
+#include <future>
 
 #include <fmt/format.h>
 
@@ -34,7 +36,7 @@ std::string hash_of_file(const std::filesystem::path& path)
     return hash.hex();
 }
 
-std::vector<InputFile> input_files(const Expansion& expansion, const LoadContext& context)
+std::vector<InputFile> input_files(const Expansion& expansion, const std::vector<std::filesystem::path>& read)
 {
     std::vector<InputFile> files;
     for (const auto& file : expansion.files) {
@@ -42,7 +44,9 @@ std::vector<InputFile> input_files(const Expansion& expansion, const LoadContext
         hash.update(file->text());
         files.push_back({file->path(), hash.hex()});
     }
-    for (const std::filesystem::path& file : context.files) files.push_back({file, hash_of_file(file)});
+    const std::size_t first = files.size();
+    for (const std::filesystem::path& file : read) files.push_back({file, {}});
+    parallel_for(read.size(), 0, [&](std::size_t i) { files[first + i].hash = hash_of_file(read[i]); });
     return files;
 }
 
@@ -103,8 +107,10 @@ LoadedScene load_scene(const std::filesystem::path& path, const LoadOptions& opt
     LoadContext context{diagnostics, dialect, options.lenient, {}};
     SceneParts parts = build_scene(expansion.root, options, context);
     if (diagnostics.has_errors()) fail(diagnostics, expansion.files);
-    std::vector<InputFile> inputs = input_files(expansion, context);
-    std::string hash = input_hash(inputs, dialect, options);
+    // Meanwhile; in another thread if there is one to be had.
+    std::future<std::vector<InputFile>> inputs_read =
+        std::async(std::launch::async | std::launch::deferred,
+                   [&expansion, files = context.files] { return input_files(expansion, files); });
     const double parse_seconds = seconds_since(start);
 
     // The objects become a scene.
@@ -112,13 +118,16 @@ LoadedScene load_scene(const std::filesystem::path& path, const LoadOptions& opt
     std::string integrator = std::move(parts.integrator_type);
     std::string sampler = std::move(parts.sampler_type);
     std::optional<RenderJob> job = assemble(std::move(parts), options, context);
+    std::vector<InputFile> inputs = inputs_read.get();
     if (!job) fail(diagnostics, expansion.files);
+    std::string hash = input_hash(inputs, dialect, options);
     return {.job = *std::move(job),
             .dialect = dialect,
             .integrator = std::move(integrator),
             .sampler = std::move(sampler),
             .inputs = std::move(inputs),
             .input_hash = std::move(hash),
+            .texture_bytes = context.texture_bytes,
             .warnings = in_file_order(diagnostics.all(), expansion.files),
             .parse_seconds = parse_seconds,
             .build_seconds = seconds_since(build_start)};

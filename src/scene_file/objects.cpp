@@ -32,6 +32,11 @@ std::vector<std::string_view> all_tags()
 
 } // namespace
 
+void LoadContext::add_file(const std::filesystem::path& file)
+{
+    if (std::find(files.begin(), files.end(), file) == files.end()) files.push_back(file);
+}
+
 std::string_view kind_of(const Element& element)
 {
     return kind_of_tag(element.tag);
@@ -107,6 +112,7 @@ void ObjectReader::add_texture(const Element& child)
 {
     ObjectReader reader(child, context_);
     std::shared_ptr<const Texture> texture = reader.build(texture_types());
+    if (texture) context_.texture_bytes += texture->memory_bytes();
     const std::string name = child.value("name");
     if (child.attribute("name") && is_first(child, name) && texture)
         params_.add_texture({name, std::move(texture), child.value_place(*child.attribute("name"))});
@@ -149,9 +155,7 @@ void ObjectReader::run(std::string_view class_name, const std::function<void()>&
     } catch (const std::bad_alloc&) {
         context_.diagnostics.error(file_place(), "not enough memory");
     }
-    for (const std::filesystem::path& file : params_.files())
-        if (std::find(context_.files.begin(), context_.files.end(), file) == context_.files.end())
-            context_.files.push_back(file);
+    for (const std::filesystem::path& file : params_.files()) context_.add_file(file);
     if (done)
         finish();
     else

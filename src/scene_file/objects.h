@@ -14,6 +14,9 @@ struct LoadContext {
     const Dialect& dialect;
     bool lenient = false;
     std::vector<std::filesystem::path> files; // that plugins read, in order, each once
+    std::uint64_t texture_bytes = 0;          // of the pictures in textures
+
+    void add_file(const std::filesystem::path& file);
 };
 
 std::string_view kind_of(const Element& element);

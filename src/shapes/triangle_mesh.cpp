@@ -34,6 +34,7 @@ public:
         const Transform to_world = params.transform("toWorld");
         if (params.missing_file()) return;
         mesh_ = read_obj(file);
+        mesh_.positions.reserve(mesh_.positions.size() + 1); // AccelBuilder
         if (!mesh_.warning.empty()) params.warn("filename", mesh_.warning);
         if (!to_world.is_identity()) apply(to_world);
         for (const Vec3f& p : mesh_.positions)
@@ -104,12 +105,17 @@ public:
     Box3f bounds() const override
     {
         Box3f box;
-        for (const MeshData::Triangle& triangle : mesh_.triangles)
-            for (const std::uint32_t vertex : triangle) box.extendBy(mesh_.positions[vertex]);
+        for (const Vec3f& p : mesh_.positions) box.extendBy(p); // each belongs to a triangle
         return box;
     }
 
     std::uint64_t triangle_count() const override { return mesh_.triangles.size(); }
+
+    std::uint64_t memory_bytes() const override
+    {
+        return mesh_.positions.capacity() * sizeof(Vec3f) + mesh_.normals.capacity() * sizeof(Vec3f) +
+               mesh_.uvs.capacity() * sizeof(Vec2f) + mesh_.triangles.capacity() * sizeof(MeshData::Triangle);
+    }
 
 private:
     // What points of a triangle have in common.

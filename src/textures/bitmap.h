@@ -34,6 +34,7 @@ public:
     Color mean() const;
     float min_value() const;
     float max_value() const;
+    std::uint64_t memory_bytes() const { return texels_.capacity() * sizeof(Color); }
 
 private:
     int width_ = 0;

@@ -167,3 +167,33 @@ TEST_CASE("closed streams and pipes do no harm", "[cli][console]")
     CHECK(shell("\"$0\" scene.xml -o b.exr --verbose >&- 2>&- <&-").exit_code == 0);
     CHECK(read_bytes(folder / "a.exr") == read_bytes(folder / "b.exr"));
 }
+
+TEST_CASE("--json says what memory is for", "[cli][json]")
+{
+    const SceneFolder folder;
+    std::string mesh = "vt 0 0\n";
+    constexpr int triangles = 100000;
+    for (int i = 0; i < triangles; ++i)
+        mesh += "v " + std::to_string(i) + " 0 0\nv 0 1 0\nv 0 0 1\nf -3/1 -2/1 -1/1\n";
+    folder.write("mesh.obj", mesh);
+    std::string scene = small_scene();
+    scene.insert(scene.rfind("</scene>"),
+                 R"(<mesh type="obj"><string name="filename" value="mesh.obj"/></mesh>)");
+    folder.write("scene.xml", scene);
+    const RunResult run = folder.run({"scene.xml", "-o", "a.exr", "--json", "-", "--quiet"});
+    REQUIRE(run.exit_code == 0);
+    const auto number = [&](const std::string& key) {
+        const std::size_t at = run.out.find("\"" + key + "\": ");
+        REQUIRE(at != std::string::npos);
+        return std::stod(run.out.substr(at + key.size() + 4));
+    };
+    CHECK(number("film") == 48.0 * 36.0 * 112.0);
+    CHECK(number("textures") == 0.0);
+    // 3 positions with texture coordinates and one triangle each
+    CHECK(number("meshes") >= triangles * (3 * 20.0 + 12.0));
+    CHECK(number("meshes") < triangles * (3 * 20.0 + 12.0) * 1.01);
+    CHECK(number("acceleration") > 40.0 * triangles);
+    CHECK(number("acceleration") <= number("acceleration_while_built"));
+    CHECK(number("meshes") + number("acceleration_while_built") + number("film") <
+          number("peak_memory_bytes"));
+}

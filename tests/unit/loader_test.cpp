@@ -4,6 +4,10 @@
 #include "plumb/surface.h"
 #include "support/catch.h"
 #include "support/scene_text.h"
+#include "support/temp_folder.h"
+
+#include <algorithm>
+#include <fmt/format.h>
 
 using namespace plumb;
 using test::camera;
@@ -267,4 +271,39 @@ TEST_CASE("an integrator that cannot render the scene is an error at its place",
                "</transform><emitter type='area'><color name='radiance' value='1 1 1'/>"
                "</emitter></shape></scene>");
     CHECK_THAT(text, ContainsSubstring("scene.xml:2:1: error: ") && ContainsSubstring("solid"));
+}
+
+TEST_CASE("meshes that are read at the same time give their errors and files in the order of the scene",
+          "[unit][loader]")
+{
+    const auto scene_with = [](const std::vector<int>& broken) {
+        const TempFolder folder;
+        std::string scene = "<scene><integrator type='normals'/><camera type='perspective'/>\n";
+        for (int i = 0; i < 12; ++i) {
+            const bool is_broken = std::find(broken.begin(), broken.end(), i) != broken.end();
+            // The earlier ones are the longer ones, which take longer.
+            const std::string comments(static_cast<std::size_t>(12 - i) * 20000, '#');
+            folder.write(fmt::format("{}.obj", i), "v 0 0 0\nv 1 0 0\nv 0 1 0\n" + comments + "\n" +
+                                                       (is_broken ? "f 1 2\n" : "f 1 2 3\n"));
+            scene += fmt::format("<mesh type='obj'><string name='filename' value='{}.obj'/></mesh>\n", i);
+        }
+        return load_scene(folder.write("scene.xml", scene + "</scene>"));
+    };
+    const LoadedScene loaded = scene_with({});
+    REQUIRE(loaded.inputs.size() == 13);
+    REQUIRE(loaded.job.scene.objects().size() == 12);
+    for (int i = 0; i < 12; ++i) {
+        CHECK(loaded.inputs[static_cast<std::size_t>(i) + 1].path.filename() == fmt::format("{}.obj", i));
+        CHECK(loaded.job.scene.objects()[static_cast<std::size_t>(i)].name ==
+              fmt::format("mesh 'obj' (scene.xml:{})", i + 2));
+    }
+    std::string order;
+    try {
+        scene_with({2, 9, 5});
+    } catch (const SceneError& error) {
+        for (const Diagnostic& diagnostic : error.diagnostics())
+            if (diagnostic.severity == Severity::error)
+                order += std::filesystem::path(diagnostic.location.file).filename().string() + " ";
+    }
+    CHECK(order == "2.obj 5.obj 9.obj ");
 }

@@ -315,3 +315,77 @@ TEST_CASE("a large OBJ file is read in parallel, with faces among the vertices",
     CHECK_THAT(error_of(text + "f 1 2 60001\n"), ContainsSubstring("100001:7 [60001]"));
     CHECK_THAT(error_of(text + "f 1 2 x\n"), ContainsSubstring("100001:7 [x]"));
 }
+
+namespace {
+
+// A strip of triangles along x in several chunks: for each, three positions, normals, uvs and a face that counts back,
+// with so many comments in front, which move the borders of the chunks.
+struct Strip {
+    static constexpr int triangles = 16000;
+    int comments = 0;
+    std::string end = "\n";
+    std::vector<std::pair<int, std::string>> lines = {}; // instead of the face of triangle i
+
+    std::string text() const
+    {
+        std::string text;
+        for (int i = 0; i < comments; ++i) text += "#" + end;
+        for (int i = 0; i < triangles; ++i) {
+            text += fmt::format("v {0} 0 0{1}v {0} 1 0{1}v {0} 0 1{1}vt 0 {0}{1}vn 2 0 0{1}", i, end);
+            std::string face = i % 2 == 0 ? "f -3/-1/-1 -2/-1/-1 -1/-1/-1"
+                                          : fmt::format("f {0}/{3}/{3} {1}/{3}/{3} {2}/{3}/{3}", 3 * i + 1,
+                                                        3 * i + 2, 3 * i + 3, i + 1);
+            for (const auto& [triangle, line] : lines)
+                if (triangle == i) face = line;
+            text += face + end;
+        }
+        return text;
+    }
+};
+
+} // namespace
+
+TEST_CASE("where an OBJ file is cut into chunks does not matter", "[unit][obj]")
+{
+    const std::string end = GENERATE(as<std::string>{}, "\n", "\r\n");
+    for (const int comments : {0, 1, 7, 20}) {
+        const std::string text = Strip{comments, end}.text();
+        REQUIRE(text.size() > (std::size_t{1} << 20));
+        const MeshData mesh = read_text(text);
+        REQUIRE(mesh.triangles.size() == Strip::triangles);
+        REQUIRE(mesh.positions.size() == 3 * Strip::triangles);
+        bool good = true;
+        for (std::uint32_t i = 0; i < Strip::triangles; ++i) {
+            const auto x = static_cast<float>(i);
+            good = good && mesh.triangles[i] == MeshData::Triangle{3 * i, 3 * i + 1, 3 * i + 2};
+            good = good && mesh.positions[3 * i + 1] == Vec3f(x, 1.f, 0.f) &&
+                   mesh.uvs[3 * i] == Vec2f(0.f, x) && mesh.normals[3 * i + 2] == Vec3f(1.f, 0.f, 0.f);
+        }
+        CHECK(good);
+        CHECK(mesh.warning.empty());
+    }
+}
+
+TEST_CASE("of an OBJ file's errors the first one is reported, whatever chunk it is in", "[unit][obj]")
+{
+    CHECK(error_of(Strip{0, "\n", {{15999, "f 1 2"}, {15000, "f 1 2 x"}, {15500, "f 0 1 2"}}}.text()) ==
+          "90006:7 [x] 'x' is not a face corner; those are written p, p/t, p//n or p/t/n");
+    CHECK(error_of(Strip{0, "\n", {{15999, "f 1 2 -48001"}}}.text()) ==
+          "96000:7 [-48001] vertex index -48001 reaches back beyond the first: 48000 vertices so far");
+    // Those that reach beyond the end are known when all is read: the largest, where it stands first.
+    CHECK(error_of(
+              Strip{0, "\n", {{3, "f 1 2 50000"}, {15990, "f 1 2 50001"}, {15995, "f 1 2 50001"}}}.text()) ==
+          "95946:7 [50001] vertex index 50001 is out of range: the file has 48000 vertices");
+}
+
+TEST_CASE("missing normals of an OBJ file are those of the face in every chunk", "[unit][obj]")
+{
+    const MeshData mesh =
+        read_text(Strip{0, "\n", {{10, "f -3/-1 -2/-1 -1/-1"}, {15998, "f -3/-1/-1 -2/-1/-1 -1/-1"}}}.text());
+    CHECK(mesh.positions.size() == 3 * Strip::triangles);
+    CHECK(std::all_of(mesh.normals.begin(), mesh.normals.end(),
+                      [](const Vec3f& normal) { return normal == Vec3f(1.f, 0.f, 0.f); }));
+    CHECK(mesh.warning ==
+          "2 of 16000 faces have corners without a normal, or with one of length zero, where the "
+          "face's own normal is used");
+}

@@ -65,35 +65,41 @@ TEST_CASE("a report has what --json promises", "[unit][json]")
     report.triangles = 12;
     report.render_seconds = 2.0;
     report.rays = {100, 50, 50};
+    report.memory = {.meshes = 1000, .acceleration = 2000, .acceleration_peak = 3000, .pictures = 40};
+    report.texture_bytes = 2;
+    report.film_bytes = 500;
     report.peak_memory = 1048576;
     report.outputs = {"a.exr", "b.png"};
 
     SECTION("nothing left out")
     {
         const std::string json = report_json(report);
-        for (const char* part : {"\"scene\": \"a \\\"b\\\".xml\"",
-                                 "\"name\": \"eth\"",
-                                 "\"mirrored_view\": true",
-                                 "\"spp\": 16",
-                                 "\"resolution\": [\n    64,\n    48\n  ]",
-                                 "\"crop\": [\n    1,\n    2,\n    3,\n    4\n  ]",
-                                 "\"triangles\": 12",
-                                 "\"parsing\": ",
-                                 "\"building\": ",
-                                 "\"rendering\": 2",
-                                 "\"writing\": ",
-                                 "\"camera\": 100",
-                                 "\"bounce\": 50",
-                                 "\"shadow\": 50",
-                                 "\"total\": 200",
-                                 "\"rays_per_second\": 100",
-                                 "\"peak_memory_bytes\": 1048576",
-                                 "\"count\": 0,\n    \"first\": null",
-                                 "\"threads\": ",
-                                 "\"instruction_set\": ",
-                                 "\"embree_version\": ",
-                                 "\"host\": ",
-                                 "\"finished\": "})
+        for (const char* part :
+             {"\"scene\": \"a \\\"b\\\".xml\"",
+              "\"name\": \"eth\"",
+              "\"mirrored_view\": true",
+              "\"spp\": 16",
+              "\"resolution\": [\n    64,\n    48\n  ]",
+              "\"crop\": [\n    1,\n    2,\n    3,\n    4\n  ]",
+              "\"triangles\": 12",
+              "\"parsing\": ",
+              "\"building\": ",
+              "\"rendering\": 2",
+              "\"writing\": ",
+              "\"camera\": 100",
+              "\"bounce\": 50",
+              "\"shadow\": 50",
+              "\"total\": 200",
+              "\"rays_per_second\": 100",
+              "\"memory_bytes\": {\n    \"meshes\": 1000,\n    \"acceleration\": 2000,\n"
+              "    \"acceleration_while_built\": 3000,\n    \"textures\": 42,\n    \"film\": 500\n  }",
+              "\"peak_memory_bytes\": 1048576",
+              "\"count\": 0,\n    \"first\": null",
+              "\"threads\": ",
+              "\"instruction_set\": ",
+              "\"embree_version\": ",
+              "\"host\": ",
+              "\"finished\": "})
             CHECK_THAT(json, ContainsSubstring(part));
     }
     SECTION("what makes it biased, and its noise")

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+#include "scene_file/build_child.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace plumb {
+
+namespace {
+
+class ChildBuilder {
+public:
+    ChildBuilder(const Element& element, const LoadContext& scene)
+        : element_(element), context_{built_.diagnostics, scene.dialect, scene.lenient, {}}
+    {}
+
+    BuiltChild build()
+    {
+        if (kind_of(element_) == "shape")
+            build_shape();
+        else
+            build_light();
+        built_.files = std::move(context_.files);
+        built_.texture_bytes = context_.texture_bytes;
+        return std::move(built_);
+    }
+
+private:
+    void build_shape()
+    {
+        const Element* bsdf = nullptr;
+        const Element* emitter = nullptr;
+        for (const Element& child : element_.children) {
+            if (child.tag == "bsdf") keep_only(bsdf, child, context_.diagnostics);
+            if (child.tag == "emitter") keep_only(emitter, child, context_.diagnostics);
+        }
+        SceneObject& object = built_.object;
+        ObjectReader reader(element_, context_, {"bsdf", "emitter"});
+        object.shape = reader.build(shape_types());
+        object.bsdf = bsdf ? ObjectReader(*bsdf, context_).build(bsdf_types()) : default_bsdf();
+        if (emitter) object.emitter = build_area_light(*emitter, object.shape.get());
+        const SourceLocation at = element_.place();
+        object.name = fmt::format("{} '{}' ({}:{})", element_.tag, reader.type(),
+                                  std::filesystem::path(at.file).filename().string(), at.line);
+    }
+
+    std::unique_ptr<Bsdf> default_bsdf()
+    {
+        return ObjectReader(synthetic_element(element_, "bsdf", "diffuse"), context_).build(bsdf_types());
+    }
+
+    // shape: null where it could not be built.
+    std::unique_ptr<Emitter> build_area_light(const Element& element, const Shape* shape)
+    {
+        ObjectReader reader(element, context_);
+        if (is_known_emitter(reader.type()) && reader.type() != "area")
+            context_.diagnostics.error(
+                element.value_place(*element.attribute("type")),
+                fmt::format("emitter '{}' has no shape; it must stand directly inside <scene>",
+                            reader.type()));
+        else if (shape) {
+            reader.params().set_parent_shape(shape);
+            return reader.build(emitter_types());
+        }
+        reader.check(emitter_types());
+        return nullptr;
+    }
+
+    void build_light()
+    {
+        ObjectReader reader(element_, context_);
+        if (reader.type() != "area") {
+            built_.light = reader.build(emitter_types());
+            return;
+        }
+        context_.diagnostics.error(element_.value_place(*element_.attribute("type")),
+                                   "emitter 'area' must stand inside the <mesh> or <shape> that emits");
+        reader.check(emitter_types());
+    }
+
+    static bool is_known_emitter(std::string_view type)
+    {
+        return std::any_of(emitter_types().begin(), emitter_types().end(),
+                           [&](const Entry<Emitter>& entry) { return entry.name == type; });
+    }
+
+    const Element& element_;
+    BuiltChild built_;
+    LoadContext context_;
+};
+
+} // namespace
+
+BuiltChild build_child(const Element& element, const LoadContext& scene)
+{
+    return ChildBuilder(element, scene).build();
+}
+
+void keep_only(const Element*& kept, const Element& child, Diagnostics& diagnostics)
+{
+    if (!kept) {
+        kept = &child;
+        return;
+    }
+    const SourceLocation first = kept->place(), second = child.place();
+    const bool environment = child.tag == "emitter" && child.value("type") == "environment";
+    diagnostics.error(second, fmt::format("a second {}; there can be only one, and the first is at {} {}",
+                                          environment ? "'environment'" : fmt::format("<{}>", child.tag),
+                                          first.file == second.file ? "line" : first.file, first.line));
+}
+
+Element synthetic_element(const Element& at, std::string tag, const std::string& type)
+{
+    Element element;
+    element.tag = std::move(tag);
+    element.file = at.file;
+    element.tag_offset = at.tag_offset;
+    element.attributes.push_back({.name = "type", .value = type, .verbatim = false});
+    return element;
+}
+
+} // namespace plumb
