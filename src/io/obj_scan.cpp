@@ -53,10 +53,10 @@ constexpr IndexKind normal_indices{"normal", "normals"};
 // The keyword of a line: v, vn, vt, f; or nothing where it is another. p: behind the line's blanks.
 std::string_view keyword_at(const char* p)
 {
+    if (p[0] != 'v' && p[0] != 'f') return {};
     const std::string_view keyword(p, p[0] == 'v' && (p[1] == 't' || p[1] == 'n') ? 2 : 1);
     const char next = p[keyword.size()];
-    const bool known = keyword[0] == 'v' || keyword[0] == 'f';
-    return known && (is_blank(next) || is_line_end(next)) ? keyword : std::string_view();
+    return is_blank(next) || is_line_end(next) ? keyword : std::string_view();
 }
 
 class Scanner {
