@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 
+// [1] Chen and Asau 1974, "On Generating Random Variates from an Empirical Distribution", AIIE Transactions 6(2).
+
 #include "plumb/distribution.h"
 
 #include <algorithm>
@@ -21,13 +23,23 @@ DiscreteDistribution::DiscreteDistribution(std::span<const double> weights)
     // Division keeps the order, and makes the end of the last thing that has a weight, and of all after it, exactly 1.
     // Ends are multiples of 2^-53, as random numbers are, so that each thing is chosen exactly as often as it says.
     for (double& x : cdf_) x = std::floor(x / total * 0x1p53) * 0x1p-53;
+
+    if (size() < 2) return;
+    guide_.reserve(size() + 1);
+    std::uint32_t end = 1;
+    for (std::size_t bucket = 0; bucket <= size(); ++bucket) {
+        while (bucket_of(cdf_[end]) < bucket) ++end;
+        guide_.push_back(end);
+    }
 }
 
 DiscreteDistribution::Choice DiscreteDistribution::sample_several(double u) const
 {
-    // The first end above u belongs to an interval that is not empty: it begins at or below u.
+    // The first end above u belongs to an interval that is not empty: it begins at or below u. It is the first end in u's
+    // bucket or a later one, and not beyond the first in the next bucket [1]: there are two of them in the mean.
     const double clamped = std::clamp(u, 0.0, largest_below_one);
-    const auto end = std::upper_bound(cdf_.begin(), cdf_.end(), clamped);
+    const std::uint32_t* const guide = &guide_[bucket_of(clamped)];
+    const auto end = std::upper_bound(cdf_.begin() + guide[0], cdf_.begin() + guide[1], clamped);
     const auto index = static_cast<std::uint32_t>(end - cdf_.begin() - 1);
     const double low = cdf_[index];
     const double width = *end - low;

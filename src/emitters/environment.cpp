@@ -120,11 +120,16 @@ private:
     Vec3f sample_direction(double u_select, const Vec2f& u) const
     {
         if (!row_choice_.can_sample()) return {0.f, 1.f, 0.f};
-        const DiscreteDistribution::Choice row = row_choice_.sample(u_select);
-        const DiscreteDistribution::Choice column = column_choice_[row.index].sample(row.u);
-        const double phi = two_pi_ * (column.index + static_cast<double>(u.x)) / bitmap_->width();
+        // Samples that are spread evenly over the square are spread evenly over the picture's light: u.y chooses the row,
+        // u.x the column. u_select gives each of them the digits that a float has not.
+        const double digits = u_select * 0x1p27;
+        const double first_digits = std::floor(digits);
+        const DiscreteDistribution::Choice row = row_choice_.sample(u.y + first_digits * 0x1p-51);
+        const DiscreteDistribution::Choice column =
+            column_choice_[row.index].sample(u.x + (digits - first_digits) * 0x1p-24);
+        const double phi = two_pi_ * (column.index + column.u) / bitmap_->width();
         const double cos_theta =
-            cos_theta_[row.index] - u.y * (cos_theta_[row.index] - cos_theta_[row.index + 1]);
+            cos_theta_[row.index] - row.u * (cos_theta_[row.index] - cos_theta_[row.index + 1]);
         const double sin_theta = std::sqrt(std::max(0.0, (1.0 - cos_theta) * (1.0 + cos_theta)));
         const SinCosD angle = sin_cos(phi);
         return {static_cast<float>(sin_theta * angle.cos), static_cast<float>(cos_theta),

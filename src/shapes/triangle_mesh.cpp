@@ -82,10 +82,10 @@ public:
 
     ShapeSample sample_area(double u_select, const Vec2f& u) const override
     {
+        if (rectangle_) return sample_rectangle(u.x, u.y, 1.f / area_);
         const std::uint32_t primitive = choice_.sample(u_select).index;
         const Vec2f uv_in_triangle = square_to_triangle(u);
         const Barycentric b{uv_in_triangle.x, uv_in_triangle.y};
-        if (rectangle_) return sample_at(primitive, rectangle_->faces[primitive], b, 1.f / area_);
         return sample_at(primitive, face(primitive), b, 1.f / area_);
     }
 
@@ -94,8 +94,7 @@ public:
         if (!rectangle_) return std::nullopt;
         const auto place = rectangle_->spherical.sample(from, u);
         if (!place) return std::nullopt;
-        const auto [primitive, b] = rectangle_->at(place->along_edge1, place->along_edge2);
-        return sample_at(primitive, rectangle_->faces[primitive], b, place->pdf);
+        return sample_rectangle(place->along_edge1, place->along_edge2, place->pdf);
     }
 
     std::optional<float> solid_angle_pdf(const Vec3f& from) const override
@@ -206,6 +205,13 @@ private:
             }
         }
         return std::nullopt;
+    }
+
+    // The point at fractions (x, y) of the rectangle's edges.
+    ShapeSample sample_rectangle(double x, double y, float pdf) const
+    {
+        const auto [primitive, b] = rectangle_->at(x, y);
+        return sample_at(primitive, rectangle_->faces[primitive], b, pdf);
     }
 
     ShapeSample sample_at(std::uint32_t primitive, const Face& face, const Barycentric& b, float pdf) const
