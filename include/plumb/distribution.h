@@ -40,7 +40,10 @@ private:
     static constexpr double largest_below_one = 0x1.fffffffffffffp-1;
     Choice sample_several(double u) const;
 
-    std::size_t bucket_of(double u) const { return static_cast<std::size_t>(u * static_cast<double>(size())); }
+    std::size_t bucket_of(double u) const
+    {
+        return static_cast<std::size_t>(u * static_cast<double>(size()));
+    }
 
     std::vector<double> cdf_; // size + 1 values from 0 to 1
     // Of several things: for each of as many buckets of u, and for 1, where the first end is that lies in it or beyond.

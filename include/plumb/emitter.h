@@ -22,6 +22,9 @@ class Emitter;
 struct LightReceiver {
     Vec3f position{0.f};
     Vec3f normal{0.f}; // unit vector: only light from its side counts; zero: light from all around does
+
+    // wi: towards the light, of any length.
+    bool counts_light_from(const Vec3f& wi) const { return !(dot(wi, normal) < 0.f); }
 };
 
 struct EmitterValue {
@@ -65,9 +68,9 @@ public:
     // Called once, before power() and before any sample.
     virtual void prepare(const SceneSphere&) {}
 
-    // Nothing where no light can arrive at `from` (behind a one-sided lamp, say).
-    virtual std::optional<EmitterSample> sample(const Vec3f& from, double u_select, const Vec2f& u,
-                                                Measure measure) const = 0;
+    // Nothing where no light arrives at the receiver (behind a one-sided lamp, say), or none that counts.
+    virtual std::optional<EmitterSample> sample(const LightReceiver& receiver, double u_select,
+                                                const Vec2f& u, Measure measure) const = 0;
 
     // What a ray from `from` along unit wi sees of this emitter: at the surface point `at` for area lights, or with
     // at == nullptr when the ray has left the scene. Zero for point and directional lights.

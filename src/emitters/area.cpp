@@ -36,13 +36,13 @@ public:
             has_solid_angle_ = shape_->has_solid_angle();
     }
 
-    std::optional<EmitterSample> sample(const Vec3f& from, double u_select, const Vec2f& u,
+    std::optional<EmitterSample> sample(const LightReceiver& receiver, double u_select, const Vec2f& u,
                                         Measure measure) const override
     {
         if (measure != Measure::area && has_solid_angle_)
-            if (const std::optional<ShapeSample> point = shape_->sample_solid_angle(from, u))
-                return seen(from, *point, Measure::solid_angle);
-        return seen(from, shape_->sample_area(u_select, u), Measure::area);
+            if (const std::optional<ShapeSample> point = shape_->sample_solid_angle(receiver.position, u))
+                return seen(receiver, *point, Measure::solid_angle);
+        return seen(receiver, shape_->sample_area(u_select, u), Measure::area);
     }
 
     EmitterValue evaluate(const Vec3f& from, const Vec3f& wi, const SurfacePoint* at,
@@ -70,12 +70,13 @@ public:
     bool has_solid_angle() const override { return has_solid_angle_; }
 
 private:
-    // A point on the shape as `from` sees it; nothing from behind. measure: of the point's density.
-    std::optional<EmitterSample> seen(const Vec3f& from, const ShapeSample& point, Measure measure) const
+    // A point on the shape as the receiver sees it; nothing from behind. measure: of the point's density.
+    std::optional<EmitterSample> seen(const LightReceiver& receiver, const ShapeSample& point,
+                                      Measure measure) const
     {
-        const Vec3d towards = Vec3d(point.position) - Vec3d(from);
+        const Vec3d towards = Vec3d(point.position) - Vec3d(receiver.position);
         const double facing = -dot(towards, Vec3d(point.normal)); // the distance times the cosine there
-        if (!(facing > 0.0)) return std::nullopt;
+        if (!(facing > 0.0) || !receiver.counts_light_from(Vec3f(towards))) return std::nullopt;
         return in_optional([&] {
             const double distance2 = length_squared(towards);
             const double distance = std::sqrt(distance2);

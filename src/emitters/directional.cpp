@@ -34,9 +34,10 @@ public:
         scene_radius_ = sphere.radius > 0.f ? sphere.radius : 1.f;
     }
 
-    std::optional<EmitterSample> sample(const Vec3f& /*from*/, double /*u_select*/, const Vec2f& /*u*/,
-                                        Measure /*measure*/) const override
+    std::optional<EmitterSample> sample(const LightReceiver& receiver, double /*u_select*/,
+                                        const Vec2f& /*u*/, Measure /*measure*/) const override
     {
+        if (!receiver.counts_light_from(direction_)) return std::nullopt;
         EmitterSample sample;
         sample.wi = direction_;
         sample.distance = infinity;

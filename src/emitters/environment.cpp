@@ -56,11 +56,12 @@ public:
 
     void prepare(const SceneSphere& sphere) override { radius_ = sphere.radius > 0.f ? sphere.radius : 1.f; }
 
-    std::optional<EmitterSample> sample(const Vec3f& from, double u_select, const Vec2f& u,
+    std::optional<EmitterSample> sample(const LightReceiver& receiver, double u_select, const Vec2f& u,
                                         Measure measure) const override
     {
         const Vec3f wi = bitmap_ ? sample_direction(u_select, u) : square_to_uniform_sphere(u);
-        const EmitterValue value = evaluate(from, wi, nullptr, measure);
+        if (!receiver.counts_light_from(wi)) return std::nullopt;
+        const EmitterValue value = evaluate(receiver.position, wi, nullptr, measure);
         if (!(value.pdf > 0.f)) return std::nullopt; // black everywhere
         EmitterSample light;
         light.wi = wi;

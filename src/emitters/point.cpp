@@ -26,12 +26,12 @@ public:
           intensity_(read_intensity(params))
     {}
 
-    std::optional<EmitterSample> sample(const Vec3f& from, double /*u_select*/, const Vec2f& /*u*/,
-                                        Measure /*measure*/) const override
+    std::optional<EmitterSample> sample(const LightReceiver& receiver, double /*u_select*/,
+                                        const Vec2f& /*u*/, Measure /*measure*/) const override
     {
-        const Vec3d towards = Vec3d(position_) - Vec3d(from);
+        const Vec3d towards = Vec3d(position_) - Vec3d(receiver.position);
         const double distance2 = length_squared(towards);
-        if (!(distance2 > 0.0)) return std::nullopt;
+        if (!(distance2 > 0.0) || !receiver.counts_light_from(Vec3f(towards))) return std::nullopt;
         const double distance = std::sqrt(distance2);
         const double falloff = 1.0 / distance2;
 

@@ -15,7 +15,7 @@ Color light_from(Tracer& tracer, Sampler& sampler, const Vertex& vertex, const E
 {
     const double u_select = sampler.next_choice();
     const Vec2f u = sampler.next_2d();
-    const auto light = emitter.sample(vertex.at().position, u_select, u, measure);
+    const auto light = emitter.sample(vertex.receiver(), u_select, u, measure);
     if (!light) return Color(0.f);
     return light_through(tracer, vertex, *light, vertex.evaluate(light->wi).f_cos);
 }

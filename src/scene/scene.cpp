@@ -66,7 +66,7 @@ std::optional<EmitterSample> Scene::sample_chosen(const LightTree::Choice& choic
                                                   Measure measure) const
 {
     const Emitter& emitter = *emitters_[choice.index];
-    std::optional<EmitterSample> light = emitter.sample(receiver.position, choice.u, u, measure);
+    std::optional<EmitterSample> light = emitter.sample(receiver, choice.u, u, measure);
     if (!light) return light;
     light->emitter = &emitter;
     light->emitter_index = choice.index;

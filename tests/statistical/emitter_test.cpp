@@ -38,7 +38,7 @@ DirectionSampler directions(const Lamp& lamp, const Vec3f& from, Measure measure
     return [&lamp, from, measure](TestRandom& random) -> std::optional<Vec3f> {
         const double u_select = random.next_double();
         const Vec2f u = random.next_2d();
-        const auto s = lamp.emitter().sample(from, u_select, u, measure);
+        const auto s = lamp.emitter().sample({from}, u_select, u, measure);
         if (!s) return std::nullopt;
         return s->wi;
     };
@@ -101,7 +101,7 @@ void check_samples(const std::string& name, const Lamp& lamp, const Vec3f& from,
     for (int i = 0; i < 30000 && compared < 50; ++i) {
         const double u_select = random.next_double();
         const Vec2f u = random.next_2d();
-        const auto s = lamp.emitter().sample(from, u_select, u, measure);
+        const auto s = lamp.emitter().sample({from}, u_select, u, measure);
         if (!s) continue;
         CHECK(length(s->position - (from + s->wi * s->distance)) <= 1e-5f * (s->distance + 1.f));
         CHECK(length(s->wi) == Approx(1.0).epsilon(1e-6));
@@ -127,7 +127,7 @@ void check_irradiance(const std::string& name, const Lamp& lamp, double expected
         for (std::uint64_t i = 0; i < samples; ++i) {
             const double u_select = random.next_double();
             const Vec2f u = random.next_2d();
-            const auto s = lamp.emitter().sample(from, u_select, u, measure);
+            const auto s = lamp.emitter().sample({from}, u_select, u, measure);
             const double cosine = s ? std::max(s->wi.y, 0.f) : 0.0;
             irradiance.add(s ? static_cast<double>(s->radiance.r) * cosine / static_cast<double>(s->pdf)
                              : 0.0);

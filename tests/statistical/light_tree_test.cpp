@@ -21,7 +21,7 @@ namespace {
 class Bounded final : public Emitter {
 public:
     explicit Bounded(const LightBounds& bounds) : bounds_(bounds) {}
-    std::optional<EmitterSample> sample(const Vec3f&, double, const Vec2f&, Measure) const override
+    std::optional<EmitterSample> sample(const LightReceiver&, double, const Vec2f&, Measure) const override
     {
         return std::nullopt;
     }
@@ -363,7 +363,7 @@ TEST_CASE("the light of a thousand lamps has little noise", "[statistical][scene
                 const auto choice = by_power.sample(numbers.next_double());
                 const Vec2f u = numbers.next_2d();
                 const Emitter& emitter = *scene.emitters()[choice.index];
-                const auto sample = emitter.sample(at->position, choice.u, u, Measure::best);
+                const auto sample = emitter.sample({at->position}, choice.u, u, Measure::best);
                 light.add(irradiance(*at, sample) / static_cast<double>(choice.probability));
             }
             return light;
@@ -377,7 +377,7 @@ TEST_CASE("the light of a thousand lamps has little noise", "[statistical][scene
                 for (const Emitter* emitter : scene.emitters()) {
                     const double u_choice = numbers.next_double();
                     const Vec2f u = numbers.next_2d();
-                    sum += irradiance(*at, emitter->sample(at->position, u_choice, u, Measure::area));
+                    sum += irradiance(*at, emitter->sample({at->position}, u_choice, u, Measure::area));
                 }
                 light.add(sum);
             }

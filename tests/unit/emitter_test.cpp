@@ -17,7 +17,7 @@ namespace plumb::test {
 TEST_CASE("light of point and directional emitters arrives in its closed form", "[unit][emitter]")
 {
     const auto radiance = [](const Emitter& emitter, const Vec3f& from) {
-        const auto sample = emitter.sample(from, 0.3, Vec2f(0.2f, 0.7f), Measure::best);
+        const auto sample = emitter.sample({from}, 0.3, Vec2f(0.2f, 0.7f), Measure::best);
         REQUIRE(sample);
         CHECK(sample->is_delta);
         CHECK(sample->pdf == 1.f);
@@ -33,7 +33,7 @@ TEST_CASE("light of point and directional emitters arrives in its closed form", 
     CHECK(seen.radiance.b == 0.f);
     CHECK(seen.distance == 5.f);
     CHECK(length(seen.wi - Vec3f(0, 0.6f, 0.8f)) < 1e-6f);
-    CHECK_FALSE(lamp->sample(Vec3f(0, 3, 4), 0.0, Vec2f(0.5f), Measure::best)); // at the light itself
+    CHECK_FALSE(lamp->sample({Vec3f(0, 3, 4)}, 0.0, Vec2f(0.5f), Measure::best)); // at the light itself
     CHECK(lamp->evaluate(Vec3f(0.f), seen.wi, nullptr, Measure::best).radiance.is_black());
     CHECK((lamp->is_delta() && !lamp->is_infinite()));
 
@@ -94,7 +94,7 @@ TEST_CASE("emitters have the defaults of their dialect", "[unit][emitter]")
     CHECK(point_power("point", DialectName::eth) == Approx(1.0).epsilon(1e-5));
     const auto distance = [](const char* type) {
         const auto light = ParamsBuilder("emitter", type).build<PointEmitter, Emitter>();
-        return light->sample(Vec3f(0, -1, 0), 0.0, Vec2f(0.5f), Measure::best)->distance;
+        return light->sample({Vec3f(0, -1, 0)}, 0.0, Vec2f(0.5f), Measure::best)->distance;
     };
     CHECK(distance("pointlight") == 101.f);
     CHECK(distance("point") == 1.f);

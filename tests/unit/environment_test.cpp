@@ -175,7 +175,7 @@ TEST_CASE("samples of environment light agree with evaluate", "[unit][environmen
         const double u_select = random.next_double();
         const Vec2f u = random.next_2d();
         const Measure measure = i % 2 == 0 ? Measure::best : Measure::area;
-        const auto sample = emitter->sample(Vec3f(1.f, 2.f, 3.f), u_select, u, measure);
+        const auto sample = emitter->sample({Vec3f(1.f, 2.f, 3.f)}, u_select, u, measure);
         REQUIRE(sample);
         const EmitterValue value = emitter->evaluate(Vec3f(1.f, 2.f, 3.f), sample->wi, nullptr, measure);
         CHECK(length(sample->wi) == Approx(1.f));
@@ -210,7 +210,7 @@ TEST_CASE("environment light is sampled with the density it claims", "[statistic
         for (std::uint64_t i = 0; i < samples; ++i) {
             const double u_select = random.next_double();
             const Vec2f u = random.next_2d();
-            counts[cell_of(emitter->sample(Vec3f(0.f), u_select, u, Measure::best)->wi)] += 1.0;
+            counts[cell_of(emitter->sample({Vec3f(0.f)}, u_select, u, Measure::best)->wi)] += 1.0;
         }
         double statistic = 0.0;
         int used = 0;
@@ -244,7 +244,7 @@ TEST_CASE("environment light is sampled with the density it claims", "[statistic
         for (std::uint64_t i = 0; i < samples; ++i) {
             const double u_select = random.next_double();
             const Vec2f u = random.next_2d();
-            const auto sample = emitter->sample(Vec3f(0.f), u_select, u, Measure::best);
+            const auto sample = emitter->sample({Vec3f(0.f)}, u_select, u, Measure::best);
             mean.add(luminance(sample->radiance) * (1.5 + sample->wi.y) / sample->pdf);
         }
         return mean;
@@ -265,7 +265,7 @@ TEST_CASE("an environment of one colour", "[unit][environment]")
     CHECK(emitter->power() == Approx(luminance(radiance) * 4.0 * pi_d * pi_d * 4.0));
     CHECK(seen(*emitter, Vec3f(0, -1, 0)).radiance == radiance);
     CHECK(seen(*emitter, Vec3f(0, -1, 0)).pdf == Approx(0.25 / pi_d));
-    const auto sample = emitter->sample(Vec3f(0.f), 0.3, {0.2f, 0.8f}, Measure::best);
+    const auto sample = emitter->sample({Vec3f(0.f)}, 0.3, {0.2f, 0.8f}, Measure::best);
     REQUIRE(sample);
     CHECK(sample->radiance == radiance);
     CHECK(sample->pdf == Approx(0.25 / pi_d));
@@ -284,7 +284,7 @@ TEST_CASE("black environments give no samples", "[unit][environment]")
                            .build<EnvironmentEmitter, Emitter>();
     for (const Emitter* emitter : {picture_of_nothing.get(), black.get()}) {
         emitter->evaluate(Vec3f(0.f), Vec3f(0, 1, 0), nullptr, Measure::best);
-        CHECK_FALSE(emitter->sample(Vec3f(0.f), 0.5, {0.5f, 0.5f}, Measure::best));
+        CHECK_FALSE(emitter->sample({Vec3f(0.f)}, 0.5, {0.5f, 0.5f}, Measure::best));
         CHECK(seen(*emitter, Vec3f(0, 1, 0)).pdf == 0.f);
         CHECK(emitter->power() == 0.f);
     }
