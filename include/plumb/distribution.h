@@ -46,7 +46,7 @@ private:
     }
 
     std::vector<double> cdf_; // size + 1 values from 0 to 1
-    // Of several things: for each of as many buckets of u, and for 1, where the first end is that lies in it or beyond.
+    // Of several things: for each of as many buckets of u, where the first end is that lies in it or beyond.
     std::vector<std::uint32_t> guide_;
     double sum_ = 0.0;
 };

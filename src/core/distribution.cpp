@@ -25,9 +25,9 @@ DiscreteDistribution::DiscreteDistribution(std::span<const double> weights)
     for (double& x : cdf_) x = std::floor(x / total * 0x1p53) * 0x1p-53;
 
     if (size() < 2) return;
-    guide_.reserve(size() + 1);
+    guide_.reserve(size());
     std::uint32_t end = 1;
-    for (std::size_t bucket = 0; bucket <= size(); ++bucket) {
+    for (std::size_t bucket = 0; bucket < size(); ++bucket) {
         while (bucket_of(cdf_[end]) < bucket) ++end;
         guide_.push_back(end);
     }
@@ -36,13 +36,13 @@ DiscreteDistribution::DiscreteDistribution(std::span<const double> weights)
 DiscreteDistribution::Choice DiscreteDistribution::sample_several(double u) const
 {
     // The first end above u belongs to an interval that is not empty: it begins at or below u. It is the first end in u's
-    // bucket or a later one, and not beyond the first in the next bucket [1]: there are two of them in the mean.
+    // bucket or a later one [1]: one step in the mean.
     const double clamped = std::clamp(u, 0.0, largest_below_one);
-    const std::uint32_t* const guide = &guide_[bucket_of(clamped)];
-    const auto end = std::upper_bound(cdf_.begin() + guide[0], cdf_.begin() + guide[1], clamped);
-    const auto index = static_cast<std::uint32_t>(end - cdf_.begin() - 1);
+    std::uint32_t end = guide_[bucket_of(clamped)];
+    while (cdf_[end] <= clamped) ++end;
+    const std::uint32_t index = end - 1;
     const double low = cdf_[index];
-    const double width = *end - low;
+    const double width = cdf_[end] - low;
     return {index, static_cast<float>(width), std::min((clamped - low) / width, largest_below_one)};
 }
 
