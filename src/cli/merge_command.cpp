@@ -154,7 +154,8 @@ void write_picture_of(const Merged& merged, const Options& run)
     const Options options = options_of(file);
     Image image = file.state.film.develop(options.variance ? Channels::color_and_evidence : Channels::color);
     image.metadata = picture_header(file, evidence);
-    write_pictures(run.outputs, image, options.exposure, std::filesystem::path(run.subject).parent_path());
+    write_pictures(run.outputs, image, options.exposure, packing_of(evidence),
+                   std::filesystem::path(run.subject).parent_path());
 }
 
 } // namespace
