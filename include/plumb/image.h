@@ -98,8 +98,8 @@ public:
     bool failed() const { return failed_; } // from any thread
     void wait();                            // throws Error if it failed
 
-    // What Plumb's own part of it was loaded from; loads it.
-    static std::filesystem::path file();
+    // Loads it. A hash of the file that Plumb's own part of it was loaded from, taken then; empty if it cannot be read.
+    static const std::string& hash();
 
 private:
     std::atomic<bool> failed_ = false;

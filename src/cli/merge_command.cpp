@@ -166,8 +166,8 @@ std::string_view merge_manual()
            "is that of rendering all of it at once, bit for bit. With --checkpoint the sum is a part again,\n"
            "which may be merged with others or, once the whole picture is there, be gone on from. The\n"
            "checkpoint of an unfinished rendering is a part as well. Parts of different scenes, settings,\n"
-           "programs or instruction sets, samples that are there twice, and samples that are missing (but\n"
-           "for --allow-missing) are errors.\n";
+           "programs (rebuilt ones, too) or instruction sets, samples that are there twice, and samples\n"
+           "that are missing (but for --allow-missing) are errors.\n";
 }
 
 int merge_command(const Options& options)

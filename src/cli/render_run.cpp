@@ -3,6 +3,7 @@
 
 #include "cli/checkpoint.h"
 #include "cli/console.h"
+#include "cli/header.h"
 #include "cli/interrupt.h"
 #include "cli/progress.h"
 #include "cli/text.h"
@@ -84,7 +85,7 @@ private:
     {
         const std::string& name = options_.checkpoint.file;
         std::optional<StateFile> file;
-        if (options_.checkpoint.resume) file = load_checkpoint(name, header_);
+        if (options_.checkpoint.resume) file = load_checkpoint(name, with_program(header_));
         if (!file) {
             if (options_.checkpoint.resume && !options_.quiet)
                 print_log(fmt::format("there is no '{}' yet: starting with the first sample", name));
@@ -206,6 +207,7 @@ RenderRun run_rendering(const Options& options, const LoadedScene& scene, const 
 void save_run(const Options& options, const LoadedScene& scene, const RenderState& state,
               const std::string& stop, Metadata header)
 {
+    header = with_program(std::move(header));
     if (!stop.empty()) header.emplace_back("plumb:workStop", stop);
     save_checkpoint(options.checkpoint.file, state, scene.job.camera->resolution(), header);
 }
