@@ -4,8 +4,10 @@
 // A 128-bit hash of bytes, to tell whether two pictures were made from the same files. Not for secrets.
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace plumb {
 
@@ -28,5 +30,8 @@ private:
     std::size_t pending_size_ = 0;
     std::uint64_t size_ = 0;
 };
+
+// Of the bytes of the files, one after the other; empty if one cannot be read.
+std::string hash_of_files(const std::vector<std::filesystem::path>& files);
 
 } // namespace plumb

@@ -4,17 +4,17 @@
 // Renderings on disk, to go on from: checkpoints, and the parts that machines render for one picture.
 //
 // A state file is an .exr that any viewer shows. R, G and B are the picture as far as it is; the other channels are
-// the film's words (film.h), 32-bit integers: sum.R.0 (the lowest) to squares.B.3, count and contributing; and
-// large.R.0 to large.B.3 if there are large squares. Its header has what the picture's header will have of all that does
+// the film's words (film.h), 32-bit integers: sum.R.0 (the lowest) to squares.B.3, count and contributing, and large.R.0 to
+// large.B.3 of the large squares; a channel that is 0 everywhere is left out. Its header has what the picture's header will have of all that does
 // not depend on the samples (the caller's `header`), and
 //
-//     plumb:state          the version of this format: 1
+//     plumb:state          the version of this format: 2
 //     plumb:stateSamples   the samples taken (SampleSet::text)
 //     plumb:stateRays      how many of the camera, bounce and shadow rays
 //     plumb:stateSeconds   of rendering
 //     plumb:stateLeftOut   how many samples were left out, and which was the first: column, row, index, why, and the bits
 //                          of its value
-//     plumb:stateHash      of all the words and of this header
+//     plumb:stateHash      of this header, the channels' names and the hashes of the rows
 //
 // The hash tells whether all of it is as it was written.
 

@@ -45,7 +45,7 @@ std::string_view check_manual()
 int check_command(const Options& options)
 {
     const LoadedScene scene = load_and_log(options);
-    ImageLibrary::file(); // is loaded, since rendering takes its memory, too
+    ImageLibrary::hash(); // is loaded, since rendering takes its memory, too
     const std::string memory = memory_text(scene);
     const std::vector<Doubt> doubts = find_doubts(scene.job);
     const bool is_clean = doubts.empty() && scene.warnings.empty();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cli/header.h"
 
+#include "cli/program.h"
 #include "cli/text.h"
 
 #include <cstring>
@@ -110,6 +111,12 @@ Metadata work_header(const Options& options, const LoadedScene& scene)
         header.emplace_back("plumb:workPart", fmt::format("{}/{} by {}", part->index + 1, part->count,
                                                           part->by == PartBy::tiles ? "tiles" : "samples"));
     }
+    return header;
+}
+
+Metadata with_program(Metadata header)
+{
+    header.emplace_back("plumb:workProgram", hash_of_program());
     return header;
 }
 

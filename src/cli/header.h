@@ -42,6 +42,7 @@
 //     plumb:workBiases, plumb:workModel   what the ledger had before the first sample, a line each
 //     plumb:workWanted        samples per pixel of the whole picture; only for a part
 //     plumb:workPart          "3/8 by tiles"; only for a part
+//     plumb:workProgram       hash_of_program(): whoever goes on must be the same
 //     plumb:workStop          plumb:stop, when the rendering had ended
 
 #include "cli/options.h"
@@ -54,7 +55,8 @@ namespace plumb {
 Metadata scene_header(const Options& options, const LoadedScene& scene);
 Metadata evidence_header(const Evidence& evidence);
 Metadata work_header(const Options& options,
-                     const LoadedScene& scene); // scene_header() and all of plumb:work
+                     const LoadedScene& scene); // scene_header(), and of plumb:work what a scene says
+Metadata with_program(Metadata header);         // loads the image library
 inline constexpr std::string_view work_prefix = "plumb:work";
 
 // The path of an input as plumb:inputs has it.

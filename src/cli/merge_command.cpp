@@ -154,7 +154,8 @@ void write_picture_of(const Merged& merged, const Options& run)
     const Options options = options_of(file);
     Image image = file.state.film.develop(options.variance ? Channels::color_and_evidence : Channels::color);
     image.metadata = picture_header(file, evidence);
-    write_pictures(run.outputs, image, options.exposure, std::filesystem::path(run.subject).parent_path());
+    write_pictures(run.outputs, image, options.exposure, packing_of(evidence),
+                   std::filesystem::path(run.subject).parent_path());
 }
 
 } // namespace
@@ -165,8 +166,8 @@ std::string_view merge_manual()
            "is that of rendering all of it at once, bit for bit. With --checkpoint the sum is a part again,\n"
            "which may be merged with others or, once the whole picture is there, be gone on from. The\n"
            "checkpoint of an unfinished rendering is a part as well. Parts of different scenes, settings,\n"
-           "programs or instruction sets, samples that are there twice, and samples that are missing (but\n"
-           "for --allow-missing) are errors.\n";
+           "programs (rebuilt ones, too) or instruction sets, samples that are there twice, and samples\n"
+           "that are missing (but for --allow-missing) are errors.\n";
 }
 
 int merge_command(const Options& options)

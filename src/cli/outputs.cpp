@@ -6,6 +6,7 @@
 #include "cli/text.h"
 #include "cli/text_file.h"
 
+#include "core/parallel.h"
 #include "plumb/error.h"
 #include "plumb/image.h"
 
@@ -48,14 +49,14 @@ std::filesystem::path free_name(const std::filesystem::path& folder, const std::
 // A picture may have taken long. If its folder is gone it goes into the refuge, or else the current folder. Where it is
 // then, for a message; empty: nowhere.
 std::string write_into_refuge(const std::filesystem::path& output, const Image& image, float exposure,
-                              const std::filesystem::path& refuge)
+                              Packing packing, const std::filesystem::path& refuge)
 {
     std::error_code ignored;
     if (!output.has_parent_path() || std::filesystem::exists(output.parent_path(), ignored)) return {};
     for (const std::filesystem::path& folder : {refuge, std::filesystem::path()}) {
         const std::filesystem::path path = free_name(folder, output.filename());
         try {
-            write_image(path, image, exposure);
+            write_image(path, image, exposure, packing);
             return fmt::format("; the picture is in '{}' instead", path.string());
         } catch (const Error&) { // the message is that of the file that was asked for
         }
@@ -88,17 +89,27 @@ void keep_inputs(const std::vector<std::filesystem::path>& inputs, const std::ve
                 throw Error(fmt::format("cannot write '{}': {}", file, reason));
 }
 
-void write_pictures(const std::vector<std::string>& outputs, const Image& image, float exposure,
-                    const std::filesystem::path& refuge)
+Packing packing_of(const Evidence& evidence)
 {
-    std::vector<std::string> problems;
-    for (const std::string& output : outputs) {
+    return evidence.stop == interruption ? Packing::fast : Packing::small;
+}
+
+void write_pictures(const std::vector<std::string>& outputs, const Image& image, float exposure,
+                    Packing packing, const std::filesystem::path& refuge)
+{
+    std::vector<std::string> problem_of(outputs.size());
+    parallel_for(outputs.size(), 0, [&](std::size_t i) {
         try {
-            write_image(output, image, exposure);
+            write_image(outputs[i], image, exposure, packing);
         } catch (const Error& error) {
-            problems.push_back(error.what() + write_into_refuge(output, image, exposure, refuge));
+            problem_of[i] = error.what();
         }
-    }
+    });
+    std::vector<std::string> problems;
+    for (std::size_t i = 0; i < outputs.size(); ++i)
+        if (!problem_of[i].empty())
+            problems.push_back(problem_of[i] +
+                               write_into_refuge(outputs[i], image, exposure, packing, refuge));
     if (!problems.empty()) throw Error(list_text(problems));
 }
 

@@ -3,7 +3,7 @@
 
 // The files that a command writes: found out about before the work begins.
 
-#include "plumb/image.h"
+#include "plumb/evidence.h"
 
 #include <filesystem>
 #include <string>
@@ -20,11 +20,14 @@ void check_outputs(const std::vector<std::string>& images, const std::string& js
 void keep_inputs(const std::vector<std::filesystem::path>& inputs, const std::vector<std::string>& images,
                  const std::string& json, std::string_view reason);
 
-// Writes the picture to all of these. One that cannot be written does not keep the others from being tried; if its folder
-// is gone, it is written into `refuge` instead, or into the current folder. Throws Error, with where it is then, if any was not written where it was
-// to be.
+// An interrupted picture is written fast: somebody waits, and it will be replaced.
+Packing packing_of(const Evidence& evidence);
+
+// Writes the picture to all of these, at the same time. One that cannot be written does not keep the others from being tried; if its folder
+// is gone, it is written into `refuge` instead, or into the current folder. Throws Error, with where it is then, if any was not
+// written where it was to be.
 void write_pictures(const std::vector<std::string>& outputs, const Image& image, float exposure,
-                    const std::filesystem::path& refuge);
+                    Packing packing, const std::filesystem::path& refuge);
 
 // Where --json says, if anywhere.
 void write_json(const std::string& json, std::string_view text);

@@ -74,6 +74,7 @@ std::vector<std::string> sample_changes(const Metadata& then, const Metadata& no
 {
     constexpr std::pair<const char*, const char*> settings[] = {
         {"Software", "the program"},
+        {"plumb:workProgram", "the program's code"},
         {"plumb:definitions", "what --define says"},
         {"plumb:integrator", "the integrator"},
         {"plumb:sampler", "the sampler"},

@@ -22,7 +22,7 @@ std::optional<int> header_integer(const Metadata& header, std::string_view name)
 // plumb:inputHash: "'a.obj' has changed". Empty: nothing.
 std::vector<std::string> input_changes(const Metadata& then, const Metadata& now);
 
-// That, and whatever else changes a sample: program, seed, integrator, instruction set and so on. Empty: samples of the one
+// That, and whatever else changes a sample: program and its code, seed, integrator, instruction set and so on. Empty: samples of the one
 // belong together with those of the other.
 std::vector<std::string> sample_changes(const Metadata& then, const Metadata& now);
 

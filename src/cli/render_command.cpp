@@ -3,6 +3,7 @@
 #include "cli/console.h"
 #include "cli/exit_codes.h"
 #include "cli/header.h"
+#include "cli/interrupt.h"
 #include "cli/outputs.h"
 #include "cli/render_run.h"
 #include "cli/report.h"
@@ -10,6 +11,8 @@
 
 #include <chrono>
 #include <fmt/format.h>
+#include <future>
+#include <system_error>
 
 namespace plumb {
 
@@ -94,6 +97,28 @@ void keep_checkpoint(const Options& options)
     throw Error(fmt::format("'{}' is there already: go on from it with --resume, or remove it", file));
 }
 
+// The picture of a run with its evidence, into all files.
+void write_pictures_of(const RenderRun& run, const Evidence& evidence, const Options& options,
+                       const std::vector<std::string>& files, const Metadata& header)
+{
+    Image image = run.state.film.develop(options.variance ? Channels::color_and_evidence : Channels::color);
+    image.metadata = header;
+    const Metadata rest = evidence_header(evidence);
+    image.metadata.insert(image.metadata.end(), rest.begin(), rest.end());
+    write_pictures(files, image, options.exposure, packing_of(evidence),
+                   std::filesystem::path(options.checkpoint.file).parent_path());
+}
+
+// In a thread of its own, or, if there is none to be had, when it is waited for.
+std::future<void> in_background(const std::function<void()>& work)
+{
+    try {
+        return std::async(std::launch::async, work);
+    } catch (const std::system_error&) {
+        return std::async(std::launch::deferred, work);
+    }
+}
+
 } // namespace
 
 int render_command(const Options& options)
@@ -113,29 +138,33 @@ Rendered render_and_write(const Options& options, const LoadedScene& scene)
     keep_inputs(paths_of(scene.inputs), outputs, options.json, "the scene reads this file; write to another");
 
     const Metadata header = scene_header(options, scene);
-    const RenderRun run = run_rendering(options, scene, work_header(options, scene));
+    const Metadata work = work_header(options, scene);
+    const bool has_checkpoint = !options.checkpoint.file.empty();
+    std::optional<InterruptGuard> guard(std::in_place);
+    const RenderRun run = run_rendering(options, scene, work);
+    if (!has_checkpoint) guard.reset(); // else until it is written
 
+    // Whoever sends a signal does not wait long: checkpoint and pictures are written at the same time.
     const Stopwatch writing;
+    std::future<void> saving = in_background([&] {
+        if (has_checkpoint) save_run(options, scene, run.state, run.stop, work);
+    });
     Report report = make_report(options, scene, run.state,
                                 make_evidence(make_ledger(scene.job, scene.dialect), run.state, run.stop));
     report.outputs = outputs;
-    if (!images.empty() && (run.signal == 0 || options.keep_interrupted)) {
-        Image image =
-            run.state.film.develop(options.variance ? Channels::color_and_evidence : Channels::color);
-        image.metadata = header;
-        const Metadata evidence = evidence_header(report.evidence);
-        image.metadata.insert(image.metadata.end(), evidence.begin(), evidence.end());
-        std::vector<std::string> problems;
-        if (!run.problem.empty()) problems.push_back(run.problem);
-        try {
-            write_pictures(images, image, options.exposure,
-                           std::filesystem::path(options.checkpoint.file).parent_path());
-        } catch (const Error& error) {
-            problems.emplace_back(error.what());
-        }
-        if (!problems.empty()) throw Error(list_text(problems));
+    std::vector<std::string> problems;
+    try {
+        if (!images.empty() && (run.signal == 0 || options.keep_interrupted))
+            write_pictures_of(run, report.evidence, options, images, header);
+    } catch (const Error& error) {
+        problems.emplace_back(error.what());
     }
-    if (!run.problem.empty()) throw Error(run.problem);
+    try {
+        saving.get();
+    } catch (const Error& error) {
+        problems.emplace(problems.begin(), error.what());
+    }
+    if (!problems.empty()) throw Error(list_text(problems));
 
     report.write_seconds = writing.seconds();
     report.total_seconds = scene.parse_seconds + scene.build_seconds + since_loaded.seconds();

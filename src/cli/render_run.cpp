@@ -3,6 +3,7 @@
 
 #include "cli/checkpoint.h"
 #include "cli/console.h"
+#include "cli/header.h"
 #include "cli/interrupt.h"
 #include "cli/progress.h"
 #include "cli/text.h"
@@ -55,6 +56,7 @@ class Runner {
 public:
     Runner(const Options& options, const LoadedScene& scene, const Metadata& header)
         : options_(options),
+          scene_(scene),
           header_(header),
           rules_(stop_rules(options, scene)),
           window_(render_window(scene.job, options.render)),
@@ -65,7 +67,6 @@ public:
 
     RenderRun run()
     {
-        const InterruptGuard guard;
         bool all = false;
         {
             ProgressDisplay display(options_.quiet);
@@ -74,30 +75,17 @@ public:
         }
         const int signal = all ? 0 : InterruptGuard::signal();
         if (signal != 0) stop_ = interruption;
-        std::string problem;
-        try {
-            if (has_checkpoint()) save();
-        } catch (const Error& error) {
-            problem = error.what(); // the picture is yet to be written
-        }
-        return {std::move(rendering_).finish(), stop_, signal, problem};
+        return {std::move(rendering_).finish(), stop_, signal};
     }
 
 private:
     bool has_checkpoint() const { return !options_.checkpoint.file.empty(); }
 
-    void save() const
-    {
-        Metadata header = header_;
-        if (!stop_.empty()) header.emplace_back("plumb:workStop", stop_);
-        save_checkpoint(options_.checkpoint.file, rendering_.state(), resolution_, header);
-    }
-
     RenderState start() const
     {
         const std::string& name = options_.checkpoint.file;
         std::optional<StateFile> file;
-        if (options_.checkpoint.resume) file = load_checkpoint(name, header_);
+        if (options_.checkpoint.resume) file = load_checkpoint(name, with_program(header_));
         if (!file) {
             if (options_.checkpoint.resume && !options_.quiet)
                 print_log(fmt::format("there is no '{}' yet: starting with the first sample", name));
@@ -171,7 +159,7 @@ private:
             if (images_.failed()) images_.wait(); // throws: what is rendered could not be written
             if (InterruptGuard::signal() != 0) return false;
             try {
-                save();
+                save_run(options_, scene_, rendering_.state(), stop_, header_);
             } catch (const Error& error) {
                 print_log(fmt::format("warning: {}; rendering goes on", error.what()));
             }
@@ -197,6 +185,7 @@ private:
 
     ImageLibrary images_; // loads while the first samples are taken
     const Options& options_;
+    const LoadedScene& scene_;
     const Metadata& header_;
     const StopRules rules_;
     const PixelRect window_;
@@ -213,6 +202,14 @@ private:
 RenderRun run_rendering(const Options& options, const LoadedScene& scene, const Metadata& header)
 {
     return Runner(options, scene, header).run();
+}
+
+void save_run(const Options& options, const LoadedScene& scene, const RenderState& state,
+              const std::string& stop, Metadata header)
+{
+    header = with_program(std::move(header));
+    if (!stop.empty()) header.emplace_back("plumb:workStop", stop);
+    save_checkpoint(options.checkpoint.file, state, scene.job.camera->resolution(), header);
 }
 
 } // namespace plumb

@@ -13,11 +13,14 @@ struct RenderRun {
     RenderState state;
     std::string stop; // why before all samples that were asked for (Evidence::stop); empty if all are taken
     int signal = 0;   // that ended it; 0: none
-    std::string problem; // why the last checkpoint could not be written; empty: it was, or none is asked for
 };
 
-// Shows progress. Writes checkpoints as often as the options ask, and the last one at the end; one that cannot be written is
-// a warning, but for the last. header: work_header() of it. Throws Error if it cannot begin.
+// Shows progress. Writes checkpoints as often as the options ask, but for the last; one that cannot be written is a warning.
+// header: work_header() of it. An InterruptGuard must live. Throws Error if it cannot begin.
 RenderRun run_rendering(const Options& options, const LoadedScene& scene, const Metadata& header);
+
+// Writes the checkpoint that the options ask for. stop: as in RenderRun. Throws Error.
+void save_run(const Options& options, const LoadedScene& scene, const RenderState& state,
+              const std::string& stop, Metadata header);
 
 } // namespace plumb

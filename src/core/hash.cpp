@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <fstream>
 
 #include <fmt/format.h>
 
@@ -82,6 +83,22 @@ std::string Hash128::hex() const
     end.h1 += end.h2;
     end.h2 += end.h1;
     return fmt::format("{:016x}{:016x}", end.h1, end.h2);
+}
+
+std::string hash_of_files(const std::vector<std::filesystem::path>& files)
+{
+    Hash128 hash;
+    std::vector<char> block(1 << 20);
+    for (const std::filesystem::path& name : files) {
+        std::ifstream file(name, std::ios::binary);
+        if (!file) return {};
+        while (file) {
+            file.read(block.data(), static_cast<std::streamsize>(block.size()));
+            hash.update({block.data(), static_cast<std::size_t>(file.gcount())});
+        }
+        if (!file.eof()) return {};
+    }
+    return hash.hex();
 }
 
 } // namespace plumb

@@ -6,6 +6,7 @@
 
 #include "io/image_text.h"
 #include "plumb/error.h"
+#include "plumb/hash.h"
 
 #include <fmt/format.h>
 
@@ -64,7 +65,7 @@ void* open_module()
 
 struct LoadedModule {
     const ImageModule& module;
-    fs::path file;
+    std::string hash; // of its file
 };
 
 LoadedModule load_module()
@@ -76,7 +77,7 @@ LoadedModule load_module()
         fail(fmt::format("the {} that was found is of another version than " PLUMB_VERSION, file_name));
     Dl_info info{};
     dladdr(reinterpret_cast<const void*>(entry), &info);
-    return {*module, info.dli_fname};
+    return {*module, hash_of_files({info.dli_fname})};
 }
 
 const LoadedModule& loaded_module()
@@ -92,9 +93,9 @@ const ImageModule& image_module()
     return loaded_module().module;
 }
 
-fs::path ImageLibrary::file()
+const std::string& ImageLibrary::hash()
 {
-    return loaded_module().file;
+    return loaded_module().hash;
 }
 
 ImageLibrary::ImageLibrary()

@@ -58,7 +58,7 @@ public:
                                                      bool clear) const = 0;
     virtual DecodedPicture read(const std::string& name) const = 0;
     virtual std::vector<unsigned char> encode(const PictureFile& picture) const = 0;
-    virtual std::vector<unsigned char> encode_words(const WordImage& image, const FillRow& fill) const = 0;
+    virtual std::vector<unsigned char> encode_words(const WordImage& image, const FillRows& fill) const = 0;
     virtual void read_words(const std::string& name, const ChooseChannels& choose,
                             const UseRow& use) const = 0;
 };

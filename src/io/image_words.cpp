@@ -11,7 +11,7 @@
 
 namespace plumb {
 
-std::vector<unsigned char> encode_words(const WordImage& image, const FillRow& fill)
+std::vector<unsigned char> encode_words(const WordImage& image, const FillRows& fill)
 {
     const ImageModule& module = image_module();
     try {

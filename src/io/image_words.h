@@ -26,12 +26,13 @@ struct WordImage {
     }
 };
 
-// One row from the left: for each pixel the bits of its floats, then its words; or those of the channels chosen.
-using FillRow = std::function<void(int y, std::span<std::uint32_t> row)>;
+// Rows from the top, each from the left: for each pixel the bits of its floats, then its words; or those of the channels
+// chosen.
+using FillRows = std::function<void(int top, int count, std::span<std::uint32_t> rows)>;
 using UseRow = std::function<void(int y, std::span<const std::uint32_t> row)>;
 
 // What the file will hold. Throws Error with the reason if memory is short.
-std::vector<unsigned char> encode_words(const WordImage& image, const FillRow& fill);
+std::vector<unsigned char> encode_words(const WordImage& image, const FillRows& fill);
 
 // choose() is given what the header says, before the first row, and answers which channels the rows are to have, in that
 // order. Throws Error with the reason, what they throw included.

@@ -28,12 +28,16 @@ struct Format {
     Encoding encoding;
     bool keeps_all; // channels beyond red, green and blue; and that a picture is a part of a larger one
     std::string_view compression;
+    std::string_view fast_compression = compression;
 };
 
 constexpr Format formats[] = {
-    {".exr", Encoding::linear_float, true, "zip"},    {".hdr", Encoding::linear_float, false, ""},
-    {".tif", Encoding::linear_float, false, "zip"},   {".tiff", Encoding::linear_float, false, "zip"},
-    {".png", Encoding::srgb_8bit, false, ""},         {".jpg", Encoding::srgb_8bit, false, "jpeg:95"},
+    {".exr", Encoding::linear_float, true, "zip", "rle"},
+    {".hdr", Encoding::linear_float, false, ""},
+    {".tif", Encoding::linear_float, false, "zip"},
+    {".tiff", Encoding::linear_float, false, "zip"},
+    {".png", Encoding::srgb_8bit, false, ""},
+    {".jpg", Encoding::srgb_8bit, false, "jpeg:95"},
     {".jpeg", Encoding::srgb_8bit, false, "jpeg:95"},
 };
 
@@ -81,7 +85,7 @@ std::vector<std::uint8_t> encode_srgb(const Image& image, int channels, float ex
 
 // What the file will hold.
 std::vector<unsigned char> encode(const std::string& name, const Image& image, const Format& format,
-                                  float exposure)
+                                  float exposure, Packing packing)
 {
     const bool is_float = format.encoding == Encoding::linear_float;
     const int channels = channels_written(image, format);
@@ -92,7 +96,9 @@ std::vector<unsigned char> encode(const std::string& name, const Image& image, c
     file.full_width = format.keeps_all ? image.full_width() : data.width;
     file.full_height = format.keeps_all ? image.full_height() : data.height;
     file.format.emplace_back("oiio:ColorSpace", is_float ? "Linear" : "sRGB");
-    if (!format.compression.empty()) file.format.emplace_back("compression", std::string(format.compression));
+    const std::string_view compression =
+        packing == Packing::fast ? format.fast_compression : format.compression;
+    if (!compression.empty()) file.format.emplace_back("compression", std::string(compression));
     if (format.extension.starts_with(".jp")) file.format.emplace_back("jpeg:subsampling", "4:4:4");
     if (is_float) {
         file.floats = image.pixel(data.x, data.y);
@@ -122,13 +128,13 @@ void check_image_path(const std::filesystem::path& path)
     const TemporaryFile probe(path); // created, and removed
 }
 
-void write_image(const std::filesystem::path& path, const Image& image, float exposure)
+void write_image(const std::filesystem::path& path, const Image& image, float exposure, Packing packing)
 {
     check_image_path(path);
     TemporaryFile file(path);
     std::vector<unsigned char> bytes;
     try {
-        bytes = encode(path.string(), image, format_of(path), exposure);
+        bytes = encode(path.string(), image, format_of(path), exposure, packing);
     } catch (const std::bad_alloc&) {
         fail(path, "not enough memory");
     } catch (const std::exception& error) { // ours, and whatever OpenImageIO lets through

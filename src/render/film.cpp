@@ -2,6 +2,7 @@
 
 #include "plumb/film.h"
 
+#include "core/parallel.h"
 #include "plumb/error.h"
 
 #include <array>
@@ -158,7 +159,8 @@ Image Film::develop(Channels channels) const
     std::vector<std::string> names = {"R", "G", "B"};
     if (evidence) names.insert(names.end(), {"variance.R", "variance.G", "variance.B", "contributing"});
     Image image(window_, full_width_, full_height_, std::move(names));
-    for (int y = window_.y; y < window_.y + window_.height; ++y) {
+    parallel_for(static_cast<std::size_t>(window_.height), 0, [&](std::size_t row) {
+        const int y = window_.y + static_cast<int>(row);
         for (int x = window_.x; x < window_.x + window_.width; ++x) {
             const std::size_t at = index({x, y});
             float* out = image.pixel(x, y);
@@ -167,7 +169,7 @@ Image Film::develop(Channels channels) const
             for (int c = 0; c < 3; ++c) out[3 + c] = static_cast<float>(variance_of_mean(at, c));
             out[6] = static_cast<float>(pixels_[at].contributing);
         }
-    }
+    });
     return image;
 }
 

@@ -2,12 +2,15 @@
 
 #include "plumb/state_file.h"
 
+#include "core/parallel.h"
 #include "io/image_words.h"
 #include "plumb/error.h"
 #include "plumb/hash.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <functional>
 #include <map>
 #include <new>
 #include <sstream>
@@ -17,8 +20,12 @@
 namespace plumb {
 namespace {
 
-constexpr int format_version = 1;
+constexpr int format_version = 2;
 const std::string no_samples = "none"; // files keep no empty text
+
+constexpr std::size_t small_count = std::tuple_size_v<Film::Words>;
+constexpr std::size_t word_count = small_count + std::tuple_size_v<Film::LargeWords>;
+using AllWords = std::array<std::uint32_t, word_count>;
 
 // "sum.R.0" to "sum.B.3" for the kind "sum".
 void add_names(std::vector<std::string>& names, const char* kind)
@@ -27,14 +34,18 @@ void add_names(std::vector<std::string>& names, const char* kind)
         for (int word = 0; word < 4; ++word) names.push_back(fmt::format("{}.{}.{}", kind, channel, word));
 }
 
-std::vector<std::string> word_names(bool with_large)
+// What the channels of AllWords are called.
+const std::vector<std::string>& word_names()
 {
-    std::vector<std::string> names;
-    add_names(names, "sum");
-    add_names(names, "squares");
-    names.insert(names.end(), {"count", "contributing"});
-    if (with_large) add_names(names, "large");
-    return names;
+    static const std::vector<std::string> all = [] {
+        std::vector<std::string> names;
+        add_names(names, "sum");
+        add_names(names, "squares");
+        names.insert(names.end(), {"count", "contributing"});
+        add_names(names, "large");
+        return names;
+    }();
+    return all;
 }
 
 // The header as one text, in an order that no file changes. Without empty values, which no file keeps.
@@ -59,12 +70,65 @@ std::string text_of(const Metadata& header)
     return text;
 }
 
-// The words of a row of pixels, after 3 floats for each.
+AllWords words_of(const Film& film, Vec2i pixel)
+{
+    AllWords all{};
+    const Film::Words words = film.words(pixel);
+    std::copy(words.begin(), words.end(), all.begin());
+    if (!film.has_large_squares()) return all;
+    const Film::LargeWords large = film.large_words(pixel);
+    std::copy(large.begin(), large.end(), all.begin() + small_count);
+    return all;
+}
+
+void set_words(Film& film, Vec2i pixel, const AllWords& all)
+{
+    Film::Words words;
+    std::copy_n(all.begin(), words.size(), words.begin());
+    film.set_words(pixel, words);
+    Film::LargeWords large;
+    std::copy_n(all.begin() + small_count, large.size(), large.begin());
+    if (large != Film::LargeWords{}) film.set_large_words(pixel, large);
+}
+
+// part(y) for each row of the window, on all threads.
+void for_each_row(const PixelRect& window, const std::function<void(int)>& part)
+{
+    parallel_for(static_cast<std::size_t>(window.height), 0,
+                 [&](std::size_t row) { part(window.y + static_cast<int>(row)); });
+}
+
+// The indices of the words that are not 0 in all pixels: the others are not worth a channel.
+std::vector<std::size_t> words_in_use(const Film& film)
+{
+    const PixelRect& window = film.window();
+    std::vector<AllWords> of_row(static_cast<std::size_t>(window.height), AllWords{});
+    for_each_row(window, [&](int y) {
+        AllWords bits{};
+        for (int x = window.x; x < window.x + window.width; ++x) {
+            const AllWords words = words_of(film, {x, y});
+            for (std::size_t i = 0; i < word_count; ++i) bits[i] |= words[i];
+        }
+        of_row[static_cast<std::size_t>(y - window.y)] = bits;
+    });
+    std::vector<std::size_t> used;
+    for (std::size_t i = 0; i < word_count; ++i)
+        if (std::any_of(of_row.begin(), of_row.end(), [i](const AllWords& bits) { return bits[i] != 0; }))
+            used.push_back(i);
+    return used;
+}
+
+// Rows of pixels as they are in the file: for each pixel 3 floats, for viewers, and the words in use.
 class RowWriter {
 public:
-    RowWriter(const Film& film, bool with_large)
-        : film_(film), picture_(film.develop()), with_large_(with_large)
-    {}
+    explicit RowWriter(const Film& film) : film_(film), picture_(film.develop()), used_(words_in_use(film)) {}
+
+    std::vector<std::string> channels() const
+    {
+        std::vector<std::string> names;
+        for (const std::size_t i : used_) names.push_back(word_names()[i]);
+        return names;
+    }
 
     void fill(int y, std::span<std::uint32_t> row) const
     {
@@ -74,41 +138,43 @@ public:
             const Color color = picture_.color(x, y);
             for (const float value : {color.r, color.g, color.b})
                 *out++ = std::bit_cast<std::uint32_t>(value);
-            const Film::Words words = film_.words({x, y});
-            out = std::copy(words.begin(), words.end(), out);
-            if (!with_large_) continue;
-            const Film::LargeWords large = film_.large_words({x, y});
-            out = std::copy(large.begin(), large.end(), out);
+            const AllWords words = words_of(film_, {x, y});
+            for (const std::size_t i : used_) *out++ = words[i];
         }
     }
 
 private:
     const Film& film_;
     Image picture_;
-    bool with_large_;
+    std::vector<std::size_t> used_;
 };
 
-void set_row(Film& film, int y, std::span<const std::uint32_t> row, bool with_large)
+void set_row(Film& film, int y, std::span<const std::uint32_t> row, const std::vector<std::size_t>& used)
 {
     const PixelRect& window = film.window();
     const std::uint32_t* in = row.data();
     for (int x = window.x; x < window.x + window.width; ++x) {
-        in += 3; // the floats are for viewers
-        Film::Words words;
-        std::copy_n(in, words.size(), words.begin());
-        in += words.size();
-        film.set_words({x, y}, words);
-        if (!with_large) continue;
-        Film::LargeWords large;
-        std::copy_n(in, large.size(), large.begin());
-        in += large.size();
-        film.set_large_words({x, y}, large);
+        in += 3;
+        AllWords words{};
+        for (const std::size_t i : used) words[i] = *in++;
+        set_words(film, {x, y}, words);
     }
 }
 
-void add_row(Hash128& hash, std::span<const std::uint32_t> row)
+// The hash of a file is that of its header, of its channels' names and of the hashes of its rows.
+std::string hash_of(std::span<const std::uint32_t> row)
 {
+    Hash128 hash;
     hash.update({reinterpret_cast<const char*>(row.data()), row.size_bytes()});
+    return hash.hex();
+}
+
+Hash128 begin_hash(const Metadata& header, const std::vector<std::string>& channels)
+{
+    Hash128 hash;
+    hash.update(text_of(header));
+    for (const std::string& name : channels) hash.update(name + "\n");
+    return hash;
 }
 
 std::string left_out_text(const LeftOut& left_out)
@@ -198,9 +264,9 @@ StateFile empty_state(const WordImage& image)
 
 std::vector<unsigned char> encode_state(const RenderState& state, Vec2i resolution, const Metadata& header)
 {
-    const bool with_large = state.film.has_large_squares();
-    WordImage image{state.film.window(), resolution.x,           resolution.y,
-                    {"R", "G", "B"},     word_names(with_large), header};
+    const RowWriter writer(state.film);
+    const PixelRect& window = state.film.window();
+    WordImage image{window, resolution.x, resolution.y, {"R", "G", "B"}, writer.channels(), header};
     image.metadata.emplace_back("plumb:state", format_version);
     image.metadata.emplace_back("plumb:stateSamples", state.taken.empty() ? no_samples : state.taken.text());
     image.metadata.emplace_back(
@@ -208,16 +274,22 @@ std::vector<unsigned char> encode_state(const RenderState& state, Vec2i resoluti
     image.metadata.emplace_back("plumb:stateSeconds", static_cast<float>(state.seconds));
     image.metadata.emplace_back("plumb:stateLeftOut", left_out_text(state.left_out));
 
-    const RowWriter writer(state.film, with_large);
-    Hash128 hash;
-    hash.update(text_of(image.metadata));
-    std::vector<std::uint32_t> row(image.words_per_row());
-    for (int y = image.data.y; y < image.data.y + image.data.height; ++y) {
+    std::vector<std::string> row_hashes(static_cast<std::size_t>(window.height));
+    for_each_row(window, [&](int y) {
+        std::vector<std::uint32_t> row(image.words_per_row());
         writer.fill(y, row);
-        add_row(hash, row);
-    }
+        row_hashes[static_cast<std::size_t>(y - window.y)] = hash_of(row);
+    });
+    Hash128 hash = begin_hash(image.metadata, image.word_channels);
+    for (const std::string& row_hash : row_hashes) hash.update(row_hash);
     image.metadata.emplace_back("plumb:stateHash", hash.hex());
-    return encode_words(image, [&](int y, std::span<std::uint32_t> out) { writer.fill(y, out); });
+
+    return encode_words(image, [&](int top, int count, std::span<std::uint32_t> rows) {
+        parallel_for(static_cast<std::size_t>(count), 0, [&](std::size_t i) {
+            const std::size_t size = image.words_per_row();
+            writer.fill(top + static_cast<int>(i), rows.subspan(i * size, size));
+        });
+    });
 }
 
 StateFile read_state(const std::filesystem::path& path)
@@ -225,24 +297,29 @@ StateFile read_state(const std::filesystem::path& path)
     std::optional<StateFile> file;
     std::string expected_hash;
     Hash128 hash;
-    bool with_large = false;
+    std::vector<std::size_t> used;
     try {
         read_words(
             path,
             [&](const WordImage& image) {
                 file.emplace(empty_state(image));
-                with_large = image.word_channels.size() > word_names(false).size();
+                std::vector<std::string> names;
+                for (std::size_t i = 0; i < word_count; ++i) {
+                    const std::string& name = word_names()[i];
+                    const std::vector<std::string>& there = image.word_channels;
+                    if (std::find(there.begin(), there.end(), name) == there.end()) continue;
+                    used.push_back(i);
+                    names.push_back(name);
+                }
                 const Metadata header = ours(image.metadata);
                 expected_hash = Entries(header).get<std::string>("plumb:stateHash");
-                hash.update(text_of(without(header, "plumb:stateHash")));
-                std::vector<std::string> channels = {"R", "G", "B"};
-                const std::vector<std::string> names = word_names(with_large);
-                channels.insert(channels.end(), names.begin(), names.end());
-                return channels;
+                hash = begin_hash(without(header, "plumb:stateHash"), names);
+                names.insert(names.begin(), {"R", "G", "B"});
+                return names;
             },
             [&](int y, std::span<const std::uint32_t> row) {
-                add_row(hash, row);
-                set_row(file->state.film, y, row, with_large);
+                hash.update(hash_of(row));
+                set_row(file->state.film, y, row, used);
             });
         if (hash.hex() != expected_hash) throw Error("it is damaged: its hash is wrong");
     } catch (const Error& error) {

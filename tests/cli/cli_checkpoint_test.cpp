@@ -127,6 +127,9 @@ TEST_CASE("a signal ends a rendering with picture and checkpoint", "[cli][checkp
         ContainsSubstring("samples per pixel; to go on:\n    renderer scene.xml -o a.exr --spp "
                           "40000 --crop 20,16,4,4 --checkpoint c.exr --checkpoint-every 0.01s --resume\n"));
     CHECK(text(header(folder / "a.exr"), "plumb:stop") == "it was interrupted");
+    CHECK(text(header(folder / "a.exr"), "compression") == "rle"); // quickly
+    REQUIRE(folder.run({"rerun", "a.exr", "-o", "same.exr"}).exit_code == 0);
+    CHECK(read_bytes(folder / "same.exr") == read_bytes(folder / "a.exr"));
     Names again = words;
     again.emplace_back("--resume");
     REQUIRE(folder.run(again).exit_code == 0);

@@ -7,8 +7,11 @@
 
 #include <chrono>
 #include <csignal>
+#include <future>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <thread>
+#include <unistd.h>
 
 using namespace plumb;
 
@@ -86,6 +89,36 @@ TEST_CASE("EXR files keep every float, the windows and the metadata", "[unit][im
     REQUIRE(find<std::string>(back.metadata, "compression"));
     CHECK(*find<std::string>(back.metadata, "compression") == "zip");
     CHECK(folder.files() == std::vector<std::string>{"a.exr"}); // nothing temporary is left
+}
+
+TEST_CASE("pictures that are packed fast have the same pixels", "[unit][image]")
+{
+    const TempFolder folder;
+    const Image image = numbered({7, 3, 20, 11}, 64, 48);
+    write_image(folder / "a.exr", image, 0.f, Packing::fast);
+    const Image back = read_image(folder / "a.exr", true);
+    check_same_pixels(image, back, 0.f);
+    CHECK(*find<std::string>(back.metadata, "compression") == "rle");
+}
+
+TEST_CASE("pictures may be written and read at the same time", "[unit][image]")
+{
+    const TempFolder folder;
+    const Image image = numbered({0, 0, 64, 48}, 64, 48);
+    write_image(folder / "alone.exr", image);
+    struct stat before {};
+    REQUIRE(fstat(STDERR_FILENO, &before) == 0);
+    std::vector<std::future<std::string>> files;
+    for (const std::string name : {"a.exr", "b.exr", "c.exr", "d.exr"})
+        files.push_back(std::async(std::launch::async, [&folder, &image, name] {
+            write_image(folder / name, image);
+            read_image(folder / name, false);
+            return read_bytes(folder / name);
+        }));
+    for (std::future<std::string>& file : files) CHECK(file.get() == read_bytes(folder / "alone.exr"));
+    struct stat after {}; // standard error is where it was
+    REQUIRE(fstat(STDERR_FILENO, &after) == 0);
+    CHECK(after.st_ino == before.st_ino);
 }
 
 TEST_CASE("the same picture written twice gives the same bytes", "[unit][image]")

@@ -9,6 +9,7 @@
 #include "support/random.h"
 #include "support/temp_folder.h"
 
+#include <algorithm>
 #include <cstring>
 #include <map>
 
@@ -103,10 +104,26 @@ TEST_CASE("a rendering comes back from disk bit for bit", "[unit][state_file]")
     expected.erase("plumb:nothing"); // files keep no empty values
     CHECK(std::map<std::string, MetadataValue>(read.header.begin(), read.header.end()) == expected);
 
-    // It is a picture, too.
+    // It is a picture, too, without the channels that say nothing.
     const Image seen = read_image(path, false);
+    const auto has = [&](const std::string& name) {
+        const std::vector<std::string>& names = seen.channel_names();
+        return std::find(names.begin(), names.end(), name) != names.end();
+    };
+    CHECK(has("sum.R.1"));
+    CHECK_FALSE(has("sum.G.1")); // green is black
+    CHECK(has("large.B.1") == large);
     const Image developed = state.film.develop();
     CHECK(std::memcmp(seen.pixel(9, 20), developed.pixel(9, 20), 3 * sizeof(float)) == 0);
+}
+
+TEST_CASE("a rendering without a sample comes back from disk", "[unit][state_file]")
+{
+    const TempFolder folder;
+    const RenderState nothing{Film(window, resolution.x, resolution.y), {}, {}, {}};
+    const StateFile read = read_state(write(folder, nothing));
+    CHECK(same_film(read.state.film, nothing.film));
+    CHECK(read.state.taken.empty());
 }
 
 TEST_CASE("films add up as if they were one", "[unit][state_file][film]")
@@ -164,6 +181,16 @@ TEST_CASE("a damaged state file is found out", "[unit][state_file]")
         }
         folder.write("bad.exr", good.substr(0, good.size() - 1));
         CHECK(problem(folder / "bad.exr") != "no error");
+    }
+    SECTION("if a channel has another's name")
+    {
+        std::string bad = good;
+        const std::size_t name = bad.find("squares.B.1");
+        REQUIRE(name != std::string::npos);
+        REQUIRE(bad.find("squares.B.3") == std::string::npos);
+        bad.replace(name, 11, "squares.B.3");
+        folder.write("bad.exr", bad);
+        CHECK(problem(folder / "bad.exr") == "it is damaged: its hash is wrong");
     }
     SECTION("and what is none is said to be none")
     {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "cli/batch/state.h"
 
+#include "cli/program.h"
 #include "cli/text_file.h"
 
 #include "plumb/hash.h"
-#include "plumb/image.h"
 
 #include <fmt/format.h>
 #include <fstream>
@@ -14,29 +14,6 @@ namespace plumb {
 namespace {
 
 constexpr std::string_view first_line = "Plumb batch state 1";
-
-// Of the bytes of the files, one after the other; empty if one cannot be read.
-std::string hash_of_files(const std::vector<std::string>& files)
-{
-    Hash128 hash;
-    std::vector<char> block(1 << 20);
-    for (const std::string& name : files) {
-        std::ifstream file(name, std::ios::binary);
-        if (!file) return {};
-        while (file) {
-            file.read(block.data(), static_cast<std::streamsize>(block.size()));
-            hash.update({block.data(), static_cast<std::size_t>(file.gcount())});
-        }
-        if (!file.eof()) return {};
-    }
-    return hash.hex();
-}
-
-const std::string& hash_of_program()
-{
-    static const std::string hash = hash_of_files({"/proc/self/exe", ImageLibrary::file()});
-    return hash;
-}
 
 } // namespace
 
@@ -66,12 +43,12 @@ bool BatchState::is_up_to_date(const std::string& title, const std::string& key,
                                const std::vector<std::string>& files) const
 {
     const auto found = lines_.find(title);
-    return found != lines_.end() && found->second == key + " " + hash_of_files(files);
+    return found != lines_.end() && found->second == key + " " + hash_of_files({files.begin(), files.end()});
 }
 
 void BatchState::note(const std::string& title, const std::string& key, const std::vector<std::string>& files)
 {
-    lines_[title] = key + " " + hash_of_files(files);
+    lines_[title] = key + " " + hash_of_files({files.begin(), files.end()});
     std::string text = std::string(first_line) + "\n";
     for (const auto& [name, hashes] : lines_) text += hashes + " " + name + "\n";
     write_text_file(file_, text);

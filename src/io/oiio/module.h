@@ -14,7 +14,7 @@ public:
                                              bool clear) const override;
     DecodedPicture read(const std::string& name) const override;
     std::vector<unsigned char> encode(const PictureFile& picture) const override;
-    std::vector<unsigned char> encode_words(const WordImage& image, const FillRow& fill) const override;
+    std::vector<unsigned char> encode_words(const WordImage& image, const FillRows& fill) const override;
     void read_words(const std::string& name, const ChooseChannels& choose, const UseRow& use) const override;
 };
 

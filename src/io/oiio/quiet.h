@@ -10,39 +10,45 @@
 
 namespace plumb {
 
-// While one of these lives, nothing that is written to standard error arrives there. libpng and others report to it
+// While one or more of these live, nothing that is written to standard error arrives there. libpng and others report to it
 // whatever they find, in words of their own, and OpenImageIO offers no way to stop them; what matters of it comes
-// back as an error text, and we report that. One picture is read or written at a time.
+// back as an error text, and we report that.
 class QuietStandardError {
 public:
-    QuietStandardError() : lock_(mutex())
+    QuietStandardError()
     {
+        const std::lock_guard lock(silence().mutex);
+        if (silence().wanted++ > 0) return;
         std::fflush(stderr);
         const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
         if (nowhere < 0) return;
-        saved_ = ::fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3);
-        if (saved_ >= 0) ::dup2(nowhere, STDERR_FILENO);
+        silence().saved = ::fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3);
+        if (silence().saved >= 0) ::dup2(nowhere, STDERR_FILENO);
         ::close(nowhere);
     }
     QuietStandardError(const QuietStandardError&) = delete;
     QuietStandardError& operator=(const QuietStandardError&) = delete;
     ~QuietStandardError()
     {
-        if (saved_ < 0) return;
+        const std::lock_guard lock(silence().mutex);
+        if (--silence().wanted > 0 || silence().saved < 0) return;
         std::fflush(stderr);
-        ::dup2(saved_, STDERR_FILENO);
-        ::close(saved_);
+        ::dup2(silence().saved, STDERR_FILENO);
+        ::close(silence().saved);
+        silence().saved = -1;
     }
 
 private:
-    static std::mutex& mutex()
+    struct Silence {
+        std::mutex mutex;
+        int wanted = 0;
+        int saved = -1; // where standard error went before
+    };
+    static Silence& silence()
     {
-        static std::mutex instance;
+        static Silence instance;
         return instance;
     }
-
-    std::lock_guard<std::mutex> lock_;
-    int saved_ = -1;
 };
 
 } // namespace plumb

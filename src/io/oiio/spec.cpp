@@ -68,6 +68,7 @@ std::vector<unsigned char> encode_image(const std::string& name, const OIIO::Ima
     const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(name);
     if (!output) throw Error(OIIO::geterror());
     std::vector<unsigned char> file;
+    file.reserve(spec.image_bytes(true)); // growing would copy it again and again
     OIIO::Filesystem::IOVecOutput memory(file);
     bool good = output->set_ioproxy(&memory) && output->open(name, spec) && write(*output);
     std::string reason = output->geterror();

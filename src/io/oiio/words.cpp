@@ -64,16 +64,14 @@ std::vector<std::size_t> numbers_of(const std::vector<std::string>& names, const
 
 } // namespace
 
-std::vector<unsigned char> OiioModule::encode_words(const WordImage& image, const FillRow& fill) const
+std::vector<unsigned char> OiioModule::encode_words(const WordImage& image, const FillRows& fill) const
 {
     return encode_image("words.exr", spec_of(image), [&](OIIO::ImageOutput& output) {
         std::vector<std::uint32_t> words(image.words_per_row() * rows_at_once);
         const int bottom = image.data.y + image.data.height;
         for (int top = image.data.y; top < bottom; top += rows_at_once) {
             const int end = std::min(top + rows_at_once, bottom);
-            for (int y = top; y < end; ++y)
-                fill(y, std::span(words).subspan(static_cast<std::size_t>(y - top) * image.words_per_row(),
-                                                 image.words_per_row()));
+            fill(top, end - top, words);
             if (!output.write_scanlines(top, end, 0, OIIO::TypeUnknown, words.data())) return false;
         }
         return true;
