@@ -42,9 +42,7 @@ std::string agreement_json(const Options& options, const std::vector<Estimate>& 
 {
     JsonWriter json;
     json.begin_object();
-    json.text("scene", options.subject);
-    json.text("verdict", verdict_of(outcome_of(pairs)));
-    json.number("significance", options.compare.how.significance);
+    write_verdict(json, options, pairs);
     json.begin_array("estimates");
     for (const Estimate& estimate : estimates) {
         json.begin_object();

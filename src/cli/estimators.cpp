@@ -115,6 +115,13 @@ std::string advice(const std::vector<Estimate>& estimates, const std::vector<Pai
     return text + "\n";
 }
 
+void write_verdict(JsonWriter& json, const Options& options, const std::vector<Pair>& pairs)
+{
+    json.text("scene", options.subject);
+    json.text("verdict", verdict_of(outcome_of(pairs)));
+    json.number("significance", options.compare.how.significance);
+}
+
 void write_pairs(JsonWriter& json, const std::vector<Pair>& pairs)
 {
     json.begin_array("pairs");

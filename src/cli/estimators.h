@@ -49,6 +49,8 @@ std::string pair_text(const Pair& pair);             // a line
 // What may decide it if they are undecided: a line. An estimator that all undecided pairs share, and others do not, is the
 // one that rarely finds some of the light.
 std::string advice(const std::vector<Estimate>& estimates, const std::vector<Pair>& pairs);
+// The scene and what was found about it.
+void write_verdict(JsonWriter& json, const Options& options, const std::vector<Pair>& pairs);
 void write_pairs(JsonWriter& json, const std::vector<Pair>& pairs);
 
 } // namespace plumb

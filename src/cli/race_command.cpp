@@ -150,9 +150,7 @@ std::string race_json(const Options& options, const std::vector<Result>& results
 {
     JsonWriter json;
     json.begin_object();
-    json.text("scene", options.subject);
-    json.text("verdict", verdict_of(outcome_of(pairs)));
-    json.number("significance", options.compare.how.significance);
+    write_verdict(json, options, pairs);
     json.integer("rounds", options.race.rounds);
     json.integer("spp", samples_per_pixel);
     json.begin_array("estimators");

@@ -12,7 +12,6 @@
 #include <chrono>
 #include <fmt/format.h>
 #include <future>
-#include <system_error>
 
 namespace plumb {
 
@@ -109,16 +108,6 @@ void write_pictures_of(const RenderRun& run, const Evidence& evidence, const Opt
                    std::filesystem::path(options.checkpoint.file).parent_path());
 }
 
-// In a thread of its own, or, if there is none to be had, when it is waited for.
-std::future<void> in_background(const std::function<void()>& work)
-{
-    try {
-        return std::async(std::launch::async, work);
-    } catch (const std::system_error&) {
-        return std::async(std::launch::deferred, work);
-    }
-}
-
 } // namespace
 
 int render_command(const Options& options)
@@ -146,7 +135,8 @@ Rendered render_and_write(const Options& options, const LoadedScene& scene)
 
     // Whoever sends a signal does not wait long: checkpoint and pictures are written at the same time.
     const Stopwatch writing;
-    std::future<void> saving = in_background([&] {
+    // In another thread if there is one to be had.
+    std::future<void> saving = std::async(std::launch::async | std::launch::deferred, [&] {
         if (has_checkpoint) save_run(options, scene, run.state, run.stop, work);
     });
     Report report = make_report(options, scene, run.state,

@@ -8,7 +8,6 @@
 #include "scene_file/file_order.h"
 
 #include <chrono>
-#include <fstream>
 #include <future>
 
 #include <fmt/format.h>
@@ -24,18 +23,6 @@ double seconds_since(Clock::time_point start)
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-std::string hash_of_file(const std::filesystem::path& path)
-{
-    Hash128 hash;
-    std::ifstream file(path, std::ios::binary);
-    std::vector<char> block(1 << 20);
-    while (file) {
-        file.read(block.data(), static_cast<std::streamsize>(block.size()));
-        hash.update({block.data(), static_cast<std::size_t>(file.gcount())});
-    }
-    return hash.hex();
-}
-
 std::vector<InputFile> input_files(const Expansion& expansion, const std::vector<std::filesystem::path>& read)
 {
     std::vector<InputFile> files;
@@ -46,7 +33,7 @@ std::vector<InputFile> input_files(const Expansion& expansion, const std::vector
     }
     const std::size_t first = files.size();
     for (const std::filesystem::path& file : read) files.push_back({file, {}});
-    parallel_for(read.size(), 0, [&](std::size_t i) { files[first + i].hash = hash_of_file(read[i]); });
+    parallel_for(read.size(), 0, [&](std::size_t i) { files[first + i].hash = hash_of_files({read[i]}); });
     return files;
 }
 
