@@ -71,6 +71,10 @@ public:
         shading_ = Frame(normal_);
         clearance_ = std::max(triangle_clearance(triangle(0), normal_, area),
                               triangle_clearance(triangle(1), normal_, area));
+        // The diagonal is no edge. A height is the area by the side.
+        const double distance = EdgeClearance(triangle(0), area).distance;
+        margin_x_ = std::min(distance * length(edge2) / area, 0.5);
+        margin_y_ = std::min(distance * length(edge1) / area, 0.5);
         spherical_ = SphericalRectangle::from(Vec3d(corners_[0]), edge1, edge2, normal_);
     }
 
@@ -85,7 +89,7 @@ public:
         const float both = std::min(static_cast<float>(b.u + b.v), 1.f);
 
         const Vec2f uv(select(primitive == 0, both, first), select(primitive == 0, second, both));
-        return {triangle_point(edges, b), clearance_, normal_, primitive, shading_, 0, uv};
+        return {position(primitive, b), clearance_, normal_, primitive, shading_, 0, uv};
     }
 
     ShapeSample sample_area(double /*u_select*/, const Vec2f& u) const override
@@ -131,9 +135,21 @@ private:
         return length(projected) > parallel_below ? normalize(projected) : Vec3d(0.0, 0.0, 1.0);
     }
 
-    // The point at uv = (x, y).
+    // The point of a triangle, or as close to it as points may be to edges.
+    Vec3f position(std::uint32_t primitive, const Barycentric& b) const
+    {
+        const double margin = std::max(margin_x_, margin_y_);
+        const double both = b.u + b.v;
+        if (std::min(b.u, b.v) >= margin && both <= 1.0 - margin) [[likely]]
+            return triangle_point(edges_[primitive], b);
+        return primitive == 0 ? point(both, b.v) : point(b.u, both);
+    }
+
+    // The point at uv = (x, y), or as close to it as points may be to edges: see EdgeClearance.
     Vec3f point(double x, double y) const
     {
+        x = std::clamp(x, margin_x_, 1.0 - margin_x_);
+        y = std::clamp(y, margin_y_, 1.0 - margin_y_);
         // The triangle that it lies in has the diagonal from the first corner to the third, and a corner of its own.
         const double difference = std::abs(x - y);
         const double smaller = std::min(x, y); // without a jump
@@ -154,6 +170,8 @@ private:
     std::optional<SphericalRectangle> spherical_; // unless it is a parallelogram
     Vec3f normal_{0.f, 0.f, 1.f};
     float clearance_ = 0.f;
+    double margin_x_ = 0.0; // how far points stay from the edges at uv.x = 0 and 1, as part of the width
+    double margin_y_ = 0.0;
     Frame shading_;
     float area_ = 1.f;
     float area_pdf_ = 1.f;

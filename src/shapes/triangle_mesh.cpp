@@ -68,8 +68,8 @@ public:
                                            : normalize(-ray.direction);
         const Frame shading(shading_normal(primitive, b, geometric_normal));
         const float clearance = triangle_clearance(t, geometric_normal, normal_length);
-        return {triangle_point(edges, b), clearance, geometric_normal, primitive, shading, 0,
-                uv(primitive, b)};
+        const Vec3f position = point_off_edges(edges, b, EdgeClearance(t, normal_length));
+        return {position, clearance, geometric_normal, primitive, shading, 0, uv(primitive, b)};
     }
 
     void prepare_sampling() override
@@ -141,6 +141,7 @@ private:
         TriangleEdges edges;
         Vec3f normal;
         float clearance;
+        EdgeClearance edge_clearance;
     };
 
     Face face(std::uint32_t primitive) const
@@ -150,7 +151,7 @@ private:
         const Vec3d normal = triangle_cross(edges);
         const double normal_length = length(normal);
         const Vec3f front = front_normal(primitive, normal * (1.0 / normal_length));
-        return {edges, front, triangle_clearance(t, front, normal_length)};
+        return {edges, front, triangle_clearance(t, front, normal_length), EdgeClearance(t, normal_length)};
     }
 
     // Two triangles that make a rectangle, as most lamps do. Its first corner is the right angle of triangle 0, and its
@@ -216,7 +217,8 @@ private:
 
     ShapeSample sample_at(std::uint32_t primitive, const Face& face, const Barycentric& b, float pdf) const
     {
-        return {triangle_point(face.edges, b), face.clearance, face.normal, pdf, uv(primitive, b)};
+        const Vec3f position = point_off_edges(face.edges, b, face.edge_clearance);
+        return {position, face.clearance, face.normal, pdf, uv(primitive, b)};
     }
 
     void apply(const Transform& to_world)

@@ -45,8 +45,8 @@ MakeBsdf glass()
     };
 }
 
-LittleScene& LittleScene::add(std::unique_ptr<Shape> shape, const MakeBsdf& bsdf,
-                              std::optional<Color> radiance)
+LittleScene& LittleScene::add_shape(std::unique_ptr<Shape> shape, const MakeBsdf& bsdf,
+                                    std::optional<Color> radiance)
 {
     SceneObject object;
     object.name = "object " + std::to_string(objects_.size());
@@ -64,23 +64,23 @@ LittleScene& LittleScene::add(std::unique_ptr<Shape> shape, const MakeBsdf& bsdf
 LittleScene& LittleScene::sphere(const Vec3f& center, float radius, const MakeBsdf& bsdf,
                                  std::optional<Color> radiance)
 {
-    return add(ParamsBuilder("mesh", "sphere")
-                   .point("center", center)
-                   .number("radius", radius)
-                   .build<Sphere, Shape>(),
-               bsdf, radiance);
+    return add_shape(ParamsBuilder("mesh", "sphere")
+                         .point("center", center)
+                         .number("radius", radius)
+                         .build<Sphere, Shape>(),
+                     bsdf, radiance);
 }
 
 LittleScene& LittleScene::rectangle(const Vec3f& center, float width, float height, const Vec3f& normal,
                                     const MakeBsdf& bsdf, std::optional<Color> radiance)
 {
-    return add(ParamsBuilder("mesh", "rectangle")
-                   .point("center", center)
-                   .number("width", width)
-                   .number("height", height)
-                   .vector("normal", normal)
-                   .build<Rectangle, Shape>(),
-               bsdf, radiance);
+    return add_shape(ParamsBuilder("mesh", "rectangle")
+                         .point("center", center)
+                         .number("width", width)
+                         .number("height", height)
+                         .vector("normal", normal)
+                         .build<Rectangle, Shape>(),
+                     bsdf, radiance);
 }
 
 LittleScene& LittleScene::room(const MakeBsdf& bsdf, std::optional<Color> radiance)

@@ -28,6 +28,8 @@ public:
     // Its front is where `normal` points.
     LittleScene& rectangle(const Vec3f& center, float width, float height, const Vec3f& normal,
                            const MakeBsdf& bsdf, std::optional<Color> radiance = {});
+    LittleScene& add_shape(std::unique_ptr<Shape> shape, const MakeBsdf& bsdf,
+                           std::optional<Color> radiance = {});
     // The cube [-1, 1]^3 seen from inside.
     LittleScene& room(const MakeBsdf& bsdf, std::optional<Color> radiance = {});
     LittleScene& point_light(const Vec3f& position, const Color& intensity);
@@ -38,8 +40,6 @@ public:
     Scene build(); // once
 
 private:
-    LittleScene& add(std::unique_ptr<Shape> shape, const MakeBsdf& bsdf, std::optional<Color> radiance);
-
     std::vector<SceneObject> objects_;
     std::vector<std::unique_ptr<Emitter>> lights_;
     SceneOptions options_;
