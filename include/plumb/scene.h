@@ -53,7 +53,7 @@ public:
         if (light.distance == infinity) return from.spawn_ray(light.wi);
         // Both ends are moved off their surfaces towards each other; what lies strictly between them is in the way.
         const Vec3f origin = offset_origin(from.position, from.clearance, from.geometric_normal, light.wi);
-        const float end = end_clearance(light.clearance, light.normal, light.position - origin);
+        const float end = end_clearance(light.clearance, light.normal, light.wi * light.distance);
         const Vec3f target = light.position + light.normal * end;
         return {origin, target - origin, 0.f, one_minus_epsilon};
     }

@@ -72,7 +72,7 @@ public:
         clearance_ = std::max(triangle_clearance(triangle(0), normal_, area),
                               triangle_clearance(triangle(1), normal_, area));
         // The diagonal is no edge. A height is the area by the side.
-        const double distance = EdgeClearance(triangle(0), area).distance;
+        const double distance = edge_clearance(largest_coordinate(bounds()));
         margin_x_ = std::min(distance * length(edge2) / area, 0.5);
         margin_y_ = std::min(distance * length(edge1) / area, 0.5);
         spherical_ = SphericalRectangle::from(Vec3d(corners_[0]), edge1, edge2, normal_);
@@ -145,7 +145,7 @@ private:
         return primitive == 0 ? point(both, b.v) : point(b.u, both);
     }
 
-    // The point at uv = (x, y), or as close to it as points may be to edges: see EdgeClearance.
+    // The point at uv = (x, y), or as close to it as points may be to edges: see edge_clearance().
     Vec3f point(double x, double y) const
     {
         x = std::clamp(x, margin_x_, 1.0 - margin_x_);

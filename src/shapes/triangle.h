@@ -52,53 +52,26 @@ inline float triangle_clearance(const TriangleCorners& t, const Vec3f& normal, d
     return clearance(corner * coordinate_factor + Vec3f(tilt), corner, normal);
 }
 
-// How far points of a triangle stay from its edges, so that single precision holds them on this side of a surface that
-// meets the triangle there: a ray that starts on the floor, where the wall stands on it, must not start behind the wall.
-// The error of a ray-triangle test at the wall and the rounding of the point are 4 and 1 roundings of the coordinates, and
-// walls need not be upright: tests/statistical/closed_room_test.cpp.
-struct EdgeClearance {
-    EdgeClearance() = default;
-    // normal_length: twice the area.
-    EdgeClearance(const TriangleCorners& t, double normal_length)
-    {
-        constexpr double factor = 8.0 * unit_roundoff;
-        double largest = 0.0, extents = 0.0;
-        for (int i = 0; i < 3; ++i) {
-            const auto [low, high] = std::minmax({t.p0[i], t.p1[i], t.p2[i]});
-            largest = std::max({largest, static_cast<double>(-low), static_cast<double>(high)});
-            extents += static_cast<double>(high) - static_cast<double>(low);
-        }
-        distance = factor * largest;
-        // No edge is longer than the sum of the extents, and a height is twice the area by the edge.
-        margin = 2.0 * distance * extents / normal_length;
-    }
+// How far points of a surface stay from its edges, so that single precision holds them on this side of another surface that
+// meets it there: a ray that starts on the floor, where the wall stands on it, must not start behind the wall. largest:
+// the largest |coordinate|. The error of a ray-triangle test at the wall and the rounding of the point are 4 and 1
+// roundings of the coordinates, and walls need not be upright: tests/statistical/closed_room_test.cpp.
+inline double edge_clearance(float largest)
+{
+    return static_cast<double>(largest) * (8.0 * unit_roundoff);
+}
 
-    double distance = 0.0; // from an edge
-    double margin = 0.0;   // points with larger barycentric coordinates are further away than twice that
-};
+inline float largest_coordinate(const Box3f& box)
+{
+    return std::max(max_component(abs(box.min)), max_component(abs(box.max)));
+}
+
+// Points of the triangle whose barycentric coordinates are all larger than this are further from its edges than twice the
+// clearance: no edge is longer than the sum of the extents, and a height is twice the area by the edge.
+double edge_margin(const TriangleEdges& t, double clearance);
 
 // The point with these barycentric coordinates, moved away from edges that are too close: from one edge to at least the
 // clearance, between two to the middle. Never further than the clearance for each edge, so that slivers keep their shape.
-inline Vec3f point_off_edges(const TriangleEdges& t, const Barycentric& b, const EdgeClearance& clearance)
-{
-    const double w = 1.0 - b.u - b.v;
-    if (std::min({b.u, b.v, w}) >= clearance.margin) [[likely]]
-        return triangle_point(t, b);
-
-    const Vec3d normal = triangle_cross(t);
-    const double normal_length = length(normal);
-    Vec3d p = t.corner + t.edge1 * b.u + t.edge2 * b.v;
-    const auto leave = [&](const Vec3d& edge, double coordinate) {
-        const double edge_length = length(edge);
-        const double distance = coordinate * normal_length / edge_length;
-        const double move = clearance.distance - 0.5 * distance;
-        if (move > 0.0) p += cross(normal, edge) * (move / (normal_length * edge_length));
-    };
-    if (!(normal_length > 0.0)) return triangle_point(t, b);
-    leave(t.edge1, b.v);
-    leave(t.edge2 - t.edge1, w);
-    leave(-t.edge2, b.u);
-    return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
-}
+Vec3f point_off_edges(const TriangleEdges& t, const Barycentric& b, double clearance);
 
 } // namespace plumb

@@ -43,8 +43,14 @@ public:
                 return;
             }
 
+        edge_clearance_ = edge_clearance(largest_coordinate(bounds()));
         double area = 0.0;
-        for (std::uint32_t i = 0; i < mesh_.triangles.size(); ++i) area += triangle_area(i);
+        for (std::uint32_t i = 0; i < mesh_.triangles.size(); ++i) {
+            const double triangle = triangle_area(i);
+            area += triangle;
+            if (triangle > 0.0)
+                edge_margin_ = std::max(edge_margin_, edge_margin(corners(i).edges(), edge_clearance_));
+        }
         area_ = static_cast<float>(area);
         if (!(area_ > 0.f)) throw Error("every triangle of '" + file.string() + "' has an area of 0");
         rectangle_ = rectangle();
@@ -68,8 +74,7 @@ public:
                                            : normalize(-ray.direction);
         const Frame shading(shading_normal(primitive, b, geometric_normal));
         const float clearance = triangle_clearance(t, geometric_normal, normal_length);
-        const Vec3f position = point_off_edges(edges, b, EdgeClearance(t, normal_length));
-        return {position, clearance, geometric_normal, primitive, shading, 0, uv(primitive, b)};
+        return {position(edges, b), clearance, geometric_normal, primitive, shading, 0, uv(primitive, b)};
     }
 
     void prepare_sampling() override
@@ -141,7 +146,6 @@ private:
         TriangleEdges edges;
         Vec3f normal;
         float clearance;
-        EdgeClearance edge_clearance;
     };
 
     Face face(std::uint32_t primitive) const
@@ -151,7 +155,7 @@ private:
         const Vec3d normal = triangle_cross(edges);
         const double normal_length = length(normal);
         const Vec3f front = front_normal(primitive, normal * (1.0 / normal_length));
-        return {edges, front, triangle_clearance(t, front, normal_length), EdgeClearance(t, normal_length)};
+        return {edges, front, triangle_clearance(t, front, normal_length)};
     }
 
     // Two triangles that make a rectangle, as most lamps do. Its first corner is the right angle of triangle 0, and its
@@ -217,14 +221,20 @@ private:
 
     ShapeSample sample_at(std::uint32_t primitive, const Face& face, const Barycentric& b, float pdf) const
     {
-        const Vec3f position = point_off_edges(face.edges, b, face.edge_clearance);
-        return {position, face.clearance, face.normal, pdf, uv(primitive, b)};
+        return {position(face.edges, b), face.clearance, face.normal, pdf, uv(primitive, b)};
     }
 
     void apply(const Transform& to_world)
     {
         for (Vec3f& p : mesh_.positions) p = to_world.point(p);
         for (Vec3f& n : mesh_.normals) n = normalize(to_world.normal(n));
+    }
+
+    Vec3f position(const TriangleEdges& edges, const Barycentric& b) const
+    {
+        if (std::min(std::min(b.u, b.v), 1.0 - b.u - b.v) < edge_margin_) [[unlikely]]
+            return point_off_edges(edges, b, edge_clearance_);
+        return triangle_point(edges, b);
     }
 
     TriangleCorners corners(std::uint32_t primitive) const
@@ -283,6 +293,8 @@ private:
     DiscreteDistribution choice_;
     std::optional<MeshRectangle> rectangle_;
     float area_ = 0.f;
+    double edge_clearance_ = 0.0; // how far points stay from edges
+    double edge_margin_ = 0.0;    // edge_margin() of the triangle with the largest one
 };
 
 template std::unique_ptr<Shape> build<TriangleMesh>(const Params&);

@@ -2,7 +2,7 @@
 
 // Closed rooms are tight: no ray that starts on a wall, however close to an edge, gets out. Rooms of rectangles and of one
 // mesh, upright and turned, as far from the origin as 1e5 times their size. At 1e5, before points were kept away from the
-// edges (EdgeClearance in src/shapes/triangle.h), 0.4 % of the rays left.
+// edges (edge_clearance in src/shapes/triangle.h), 0.4 % of the rays left.
 
 #include "scene/float_mode.h"
 #include "support/catch.h"
