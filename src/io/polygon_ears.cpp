@@ -65,6 +65,9 @@ public:
                 cut(*spike);
             } else if (const auto corner = next_waiting()) {
                 if (can_be_cut(*corner, tree)) cut(*corner);
+            } else if (!cuts_touch_) {
+                cuts_touch_ = true;
+                wait_for_all();
             } else if (const auto flat = next_flat()) {
                 cut(*flat);
             } else if (!takes_any_) {
@@ -144,6 +147,8 @@ private:
             }
         }
         if (!touches[0] && !touches[1] && !touches[2]) return true;
+        // On the cut: neighbouring faces that have this corner would not fit the ear exactly.
+        if (touches[2] && same == 3 && !cuts_touch_) return true;
         const auto goes_inside = [&](const PlanePoint& to) {
             for (std::size_t k = 0; k < 3; ++k)
                 if (touches[k] && side(ear[k], ear[(k + 1) % 3], to) <= 0) return false;
@@ -227,7 +232,8 @@ private:
     std::deque<std::uint32_t> waiting_; // to be tested
     std::vector<std::uint32_t> spikes_;
     std::vector<std::uint32_t> flat_;
-    bool takes_any_ = false; // whatever lies in it
+    bool cuts_touch_ = false; // corners between their ends, since there were no other ears
+    bool takes_any_ = false;  // whatever lies in it
     PolygonCut result_;
 };
 

@@ -162,6 +162,18 @@ TEST_CASE("the time to cut a polygon grows little faster than its corners", "[un
     }
 }
 
+TEST_CASE("corners on a line are shared with the triangles beside them", "[unit][obj]")
+{
+    // The gaps of a comb lie on a line; the bar below has triangles that end there, not a long edge past all of them.
+    for (const int corners : {40, 1000}) {
+        const std::vector<PlanePoint> comb = plane_points(comb_polygon(corners, 1.f));
+        const PolygonCut cut = cut_polygon(comb);
+        CHECK(std::none_of(cut.triangles.begin(), cut.triangles.end(), [&](const PolygonTriangle& t) {
+            return turn(comb[t[0]], comb[t[1]], comb[t[2]]) == 0.0;
+        }));
+    }
+}
+
 TEST_CASE("polygons that cross themselves are cut in bounded time", "[unit][obj]")
 {
     TestRandom random;
