@@ -6,6 +6,8 @@
 // Messages follow LLVM's style: lower case, no full stop, the value that was given and the way out. Library code
 // throws while loading and writing, never in the render loop, and never prints: the command line does.
 
+#include <cstddef>
+#include <map>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -22,6 +24,7 @@ struct SourceLocation {
     int length = 1;           // of the marked text, in bytes
     std::string line_text;    // the line without its end, or of a very long one the part about `column`
     int line_text_column = 1; // the column at which line_text starts
+    bool hides_line = false; // line_text is not shown: the file may be somebody's secrets rather than a scene
 
     static SourceLocation from_offset(std::string file, std::string_view text, std::size_t offset,
                                       std::size_t length = 1);
@@ -69,9 +72,16 @@ private:
     std::vector<Diagnostic> diagnostics_;
 };
 
-// Collects what loading finds. The same message at the same place is kept once.
+// Collects what loading finds. The same message at the same place is kept once. Files can be wrong in a million places,
+// so of each kind only the first are kept, and of each severity only so many in all; the rest is counted. A kind is the
+// words of a message, without the names and numbers in them and without the way out behind a semicolon. Notes go with
+// the error or warning before them.
 class Diagnostics {
 public:
+    static constexpr std::size_t most_of_a_kind = 20;
+    static constexpr std::size_t most_of_a_severity = 1000;
+    static constexpr std::size_t longest_message = 2000; // bytes; longer ones are cut
+
     void error(const SourceLocation& at, std::string message)
     {
         add(Severity::error, at, std::move(message));
@@ -82,13 +92,29 @@ public:
     }
     void note(const SourceLocation& at, std::string message) { add(Severity::note, at, std::move(message)); }
     void add(Severity severity, const SourceLocation& at, std::string message);
+    void add(const Diagnostics& others);
 
-    bool has_errors() const;
-    const std::vector<Diagnostic>& all() const { return diagnostics_; }
+    bool has_errors() const { return has_errors_; }
+    bool keeps(Severity severity, std::string_view message) const; // one more message like this one
+    // What was kept. The last one of a kind says how many more there were.
+    const std::vector<Diagnostic>& all() const;
 
 private:
+    struct Count {
+        std::size_t kept = 0;
+        std::size_t left_out = 0;
+        std::size_t last = 0; // of those that were kept: its number in diagnostics_
+    };
+
+    bool count(std::string kind, Severity severity); // whether it is to be kept
+
     std::vector<Diagnostic> diagnostics_;
     std::set<std::string> seen_;
+    std::map<std::string, Count, std::less<>> kinds_;
+    Count severities_[3];
+    bool has_errors_ = false;
+    bool leaves_out_notes_ = false;
+    mutable std::vector<Diagnostic> shown_; // by all()
 };
 
 // The name of `candidates` closest to `word` if it is close enough to be a slip of the keyboard; else empty.

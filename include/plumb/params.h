@@ -62,7 +62,7 @@ struct Range {
 // A child object that is a texture, under the name that its element gave.
 struct TextureChild {
     std::string name;
-    std::shared_ptr<const Texture> texture;
+    std::shared_ptr<const Texture> texture; // null: it could not be made, which has been reported
     SourceLocation at;
     mutable bool asked = false;
 };

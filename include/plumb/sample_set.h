@@ -51,6 +51,7 @@ public:
 
     // "0,0,64,48:0-16 64,0,32,48:0-8": x, y, width, height and the samples from first to before last, block by block.
     std::string text() const;
+    // Nothing where it is not such a text, or has so many scattered blocks that nobody rendered them.
     static std::optional<SampleSet> from_text(std::string_view text);
 
 private:

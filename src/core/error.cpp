@@ -167,25 +167,12 @@ std::string Diagnostic::text() const
     std::string place = harmless(location.file) + ":";
     if (location.line > 0)
         place += std::to_string(location.line) + ":" + std::to_string(location.column) + ":";
-    return place + " " + what + (location.line > 0 ? "\n" + excerpt(location) : "");
+    return place + " " + what + (location.line > 0 && !location.hides_line ? "\n" + excerpt(location) : "");
 }
 
 SceneError::SceneError(std::vector<Diagnostic> diagnostics)
     : Error(joined(diagnostics)), diagnostics_(std::move(diagnostics))
 {}
-
-void Diagnostics::add(Severity severity, const SourceLocation& at, std::string message)
-{
-    const std::string key = at.file + ":" + std::to_string(at.line) + ":" + std::to_string(at.column) + ": " +
-                            std::string(to_string(severity)) + message;
-    if (seen_.insert(key).second) diagnostics_.push_back({severity, at, std::move(message)});
-}
-
-bool Diagnostics::has_errors() const
-{
-    return std::any_of(diagnostics_.begin(), diagnostics_.end(),
-                       [](const Diagnostic& d) { return d.severity == Severity::error; });
-}
 
 std::string_view closest_name(std::string_view word, const std::vector<std::string_view>& candidates)
 {

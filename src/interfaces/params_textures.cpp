@@ -52,6 +52,7 @@ std::shared_ptr<const Texture> Params::texture_child(std::string_view name, cons
         diagnostics_.error(child->at, fmt::format("{} is given twice, as a value and as a texture", name));
         return nullptr;
     }
+    if (!child->texture) return nullptr;
     if (const auto outside = value_outside(*child->texture, range)) {
         diagnostics_.error(child->at, fmt::format("{} must be {} everywhere, but the texture reaches {}",
                                                   name, range.text(), *outside));

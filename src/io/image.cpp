@@ -6,6 +6,7 @@
 
 #include "io/image_file.h"
 #include "io/image_module.h"
+#include "io/regular_file.h"
 #include "plumb/error.h"
 
 #include <fmt/format.h>
@@ -125,8 +126,7 @@ Image read_image(const std::filesystem::path& path, bool decode_srgb)
     const auto fail = [&name](std::string reason) -> Error {
         return Error(fmt::format("cannot read '{}': {}", name, reason.empty() ? "not a picture" : reason));
     };
-    if (const std::string_view problem = problem_of_file(path); !problem.empty())
-        throw fail(std::string(problem));
+    if (std::string problem = problem_of_file(path); !problem.empty()) throw fail(std::move(problem));
     if (is_truncated_png(path)) throw fail("the file ends early");
     const ImageModule& module = image_module();
     try {

@@ -11,16 +11,6 @@
 
 namespace plumb {
 
-std::string_view problem_of_file(const std::filesystem::path& path)
-{
-    std::error_code error;
-    const std::filesystem::file_status status = std::filesystem::status(path, error);
-    if (!std::filesystem::exists(status)) return "no such file";
-    if (std::filesystem::is_directory(status)) return "it is a folder";
-    if (!std::filesystem::is_regular_file(status)) return "it is a device, a pipe or the like, not a file";
-    return {};
-}
-
 bool is_truncated_png(const std::filesystem::path& path)
 {
     std::ifstream file(path, std::ios::binary);

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What has to be known of a file before a codec reads it.
+// What has to be known of a picture's file before a codec reads it.
 
 #include <filesystem>
-#include <string_view>
 
 namespace plumb {
-
-// Why there is no file at `path` to be read, for an error message; empty: there is one.
-std::string_view problem_of_file(const std::filesystem::path& path);
 
 // Whether the file begins as a PNG file does and ends before its last chunk does. libpng gives up on such files by a
 // jump that leaks what OpenImageIO holds, with a message that nobody understands.

@@ -2,9 +2,9 @@
 
 #include "io/image_words.h"
 
-#include "io/image_file.h"
 #include "io/image_module.h"
 #include "io/image_text.h"
+#include "io/regular_file.h"
 #include "plumb/error.h"
 
 #include <new>
@@ -25,8 +25,7 @@ std::vector<unsigned char> encode_words(const WordImage& image, const FillRows& 
 
 void read_words(const std::filesystem::path& path, const ChooseChannels& choose, const UseRow& use)
 {
-    if (const std::string_view problem = problem_of_file(path); !problem.empty())
-        throw Error(std::string(problem));
+    if (const std::string problem = problem_of_file(path); !problem.empty()) throw Error(problem);
     const ImageModule& module = image_module();
     try {
         module.read_words(path.string(), choose, use);

@@ -168,7 +168,8 @@ private:
 
 class Assembler {
 public:
-    Assembler(ObjAttributes& attributes, std::vector<ObjFaces> faces) : found_(attributes)
+    Assembler(ObjAttributes& attributes, std::vector<ObjFaces> faces, std::size_t materials)
+        : found_(attributes), materials_(materials)
     {
         bool any_uv = false;
         bool all_uv = true;
@@ -281,12 +282,18 @@ private:
                 "own normal is used",
                 faces_without_normal_, face_count_));
         if (dropped_uvs_) add("texture coordinates are left out, because some face corners have none");
+        if (materials_ > 1)
+            add(fmt::format(
+                "the faces name {} materials (usemtl), which are not read: all have the one BSDF of "
+                "the scene file",
+                materials_));
     }
 
     ObjAttributes& found_;
     FileFacts file_{found_};
     std::vector<ObjTriangles> chunks_;
     MeshData mesh_;
+    std::size_t materials_;
     std::size_t face_count_ = 0;
     std::size_t without_area_ = 0;
     std::size_t faces_without_normal_ = 0;
@@ -295,9 +302,9 @@ private:
 
 } // namespace
 
-MeshData assemble_obj_mesh(ObjAttributes attributes, std::vector<ObjFaces> faces)
+MeshData assemble_obj_mesh(ObjAttributes attributes, std::vector<ObjFaces> faces, std::size_t materials)
 {
-    return Assembler(attributes, std::move(faces)).run();
+    return Assembler(attributes, std::move(faces), materials).run();
 }
 
 } // namespace plumb

@@ -8,7 +8,8 @@
 
 namespace plumb {
 
-// faces: of the file's chunks, in order; their indices must be in range. Throws Error if no triangle has an area.
-MeshData assemble_obj_mesh(ObjAttributes attributes, std::vector<ObjFaces> faces);
+// faces: of the file's chunks, in order; their indices must be in range. materials: how many the faces name. Throws
+// Error if no triangle has an area.
+MeshData assemble_obj_mesh(ObjAttributes attributes, std::vector<ObjFaces> faces, std::size_t materials);
 
 } // namespace plumb

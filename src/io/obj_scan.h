@@ -7,6 +7,7 @@
 // the nearest float, and faces are passed on to it only when they were found to be in order.
 
 #include "io/obj_faces.h"
+#include "io/obj_materials.h"
 #include "plumb/math.h"
 
 #include <string>
@@ -30,7 +31,7 @@ struct ObjAttributes {
 
 struct ObjFile {
     std::string name;      // for messages
-    std::string_view text; // ends with a line end
+    std::string_view text; // ends with two line ends
 };
 
 // The largest index of one kind, and where it stands first.
@@ -44,12 +45,13 @@ struct ObjChunk {
     ObjLargestIndex position;
     ObjLargestIndex uv;
     ObjLargestIndex normal;
+    ObjMaterials materials;
 };
 
-// How many of them the lines of `chunk` give.
+// How many of them the statements of `chunk` give.
 ObjCounts count_obj(std::string_view chunk);
 
-// chunk: whole lines of the file. before: what the lines in front of it give. The numbers go to their places in `found`,
+// chunk: whole statements of the file. before: what the lines in front of it give. The numbers go to their places in `found`,
 // which other chunks may fill meanwhile. Throws FileError.
 ObjChunk scan_obj(const ObjFile& file, std::string_view chunk, const ObjCounts& before, ObjAttributes& found);
 

@@ -203,6 +203,22 @@ std::optional<SampleBlock> block_from_text(std::string_view text)
     return block;
 }
 
+// Whether the grid of these blocks would take more time and memory than any that parts and checkpoints make: those have
+// some 256 x 256 cells, and a few blocks for each.
+bool is_too_scattered(std::span<const SampleBlock> blocks)
+{
+    constexpr std::size_t most_cells = std::size_t{1} << 22;
+    const Grid grid{cuts({blocks}, &PixelRect::x, &PixelRect::width),
+                    cuts({blocks}, &PixelRect::y, &PixelRect::height)};
+    const std::size_t cells = grid.columns() * grid.rows();
+    std::size_t covered = 0;
+    for (const SampleBlock& block : blocks)
+        covered +=
+            (position(grid.x, block.pixels.x + block.pixels.width) - position(grid.x, block.pixels.x)) *
+            (position(grid.y, block.pixels.y + block.pixels.height) - position(grid.y, block.pixels.y));
+    return cells > most_cells || covered > most_cells || blocks.size() > 1000 + 64 * cells;
+}
+
 } // namespace
 
 std::uint64_t SampleBlock::count() const
@@ -290,6 +306,7 @@ std::optional<SampleSet> SampleSet::from_text(std::string_view text)
         blocks.push_back(*block);
         text.remove_prefix(std::min(end + 1, text.size()));
     }
+    if (is_too_scattered(blocks)) return std::nullopt;
     return SampleSet(blocks);
 }
 

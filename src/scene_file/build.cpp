@@ -74,16 +74,23 @@ private:
 
     void build_children()
     {
-        std::vector<BuiltChild> built(children_.size());
-        parallel_for(children_.size(), 0,
-                     [&](std::size_t i) { built[i] = build_child(*children_[i], context_); });
+        // Some at a time: each may have a thousand messages, most of which are not kept here.
+        constexpr std::size_t most = 1024;
+        for (std::size_t begin = 0; begin < children_.size(); begin += most)
+            build_children(std::span(children_).subspan(begin, std::min(most, children_.size() - begin)));
+    }
+
+    void build_children(std::span<const Element* const> elements)
+    {
+        std::vector<BuiltChild> built(elements.size());
+        parallel_for(elements.size(), 0,
+                     [&](std::size_t i) { built[i] = build_child(*elements[i], context_); });
         for (std::size_t i = 0; i < built.size(); ++i) {
             BuiltChild& child = built[i];
-            for (const Diagnostic& diagnostic : child.diagnostics.all())
-                diagnostics_.add(diagnostic.severity, diagnostic.location, diagnostic.message);
+            diagnostics_.add(child.diagnostics);
             for (const std::filesystem::path& file : child.files) context_.add_file(file);
             context_.texture_bytes += child.texture_bytes;
-            if (kind_of(*children_[i]) == "shape")
+            if (kind_of(*elements[i]) == "shape")
                 parts_.objects.push_back(std::move(child.object));
             else if (child.light)
                 parts_.lights.push_back(std::move(child.light));

@@ -50,21 +50,25 @@ private:
         return ObjectReader(synthetic_element(element_, "bsdf", "diffuse"), context_).build(bsdf_types());
     }
 
-    // shape: null where it could not be built.
+    // shape: null where it could not be built; then another one stands in, so that all mistakes are found.
     std::unique_ptr<Emitter> build_area_light(const Element& element, const Shape* shape)
     {
         ObjectReader reader(element, context_);
-        if (is_known_emitter(reader.type()) && reader.type() != "area")
+        if (is_known_emitter(reader.type()) && reader.type() != "area") {
             context_.diagnostics.error(
                 element.value_place(*element.attribute("type")),
                 fmt::format("emitter '{}' has no shape; it must stand directly inside <scene>",
                             reader.type()));
-        else if (shape) {
-            reader.params().set_parent_shape(shape);
-            return reader.build(emitter_types());
+            reader.check(emitter_types());
+            return nullptr;
         }
-        reader.check(emitter_types());
-        return nullptr;
+        std::unique_ptr<Shape> other;
+        if (!shape)
+            other =
+                ObjectReader(synthetic_element(element_, "shape", "sphere"), context_).build(shape_types());
+        reader.params().set_parent_shape(shape ? shape : other.get());
+        std::unique_ptr<Emitter> light = reader.build(emitter_types());
+        return shape ? std::move(light) : nullptr;
     }
 
     void build_light()

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "scene_file/document.h"
 
+#include "io/regular_file.h"
 #include "scene_file/xml_scan.h"
 
 #include <algorithm>
-#include <fstream>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -22,7 +22,7 @@ public:
         : file_(std::move(file)), buffer_(buffer), diagnostics_(diagnostics)
     {}
 
-    // Recursion ends: scan_xml() has seen at most max_nesting levels.
+    // Recursion ends: scan_xml() has counted levels.
     Element read(const pugi::xml_node& node) const
     {
         Element element;
@@ -86,8 +86,8 @@ std::string_view unreadable_encoding(std::string_view text)
 
 } // namespace
 
-TextFile::TextFile(std::filesystem::path path, std::string text)
-    : path_(std::move(path)), text_(std::move(text))
+TextFile::TextFile(std::filesystem::path path, std::string text, bool hides_lines)
+    : path_(std::move(path)), text_(std::move(text)), hides_lines_(hides_lines)
 {
     line_starts_.push_back(0);
     for (std::size_t i = text_.find('\n'); i != text_.npos; i = text_.find('\n', i + 1))
@@ -99,9 +99,11 @@ SourceLocation TextFile::place(std::size_t offset, std::size_t length) const
     offset = std::min(offset, text_.size());
     const auto after = std::upper_bound(line_starts_.begin(), line_starts_.end(), offset);
     const std::size_t start = *(after - 1), end = after == line_starts_.end() ? text_.size() : *after;
-    return SourceLocation::from_line(path_.string(), static_cast<int>(after - line_starts_.begin()),
-                                     std::string_view(text_).substr(start, end - start), offset - start,
-                                     length);
+    auto at =
+        SourceLocation::from_line(path_.string(), static_cast<int>(after - line_starts_.begin()),
+                                  std::string_view(text_).substr(start, end - start), offset - start, length);
+    at.hides_line = hides_lines_;
+    return at;
 }
 
 const Attribute* Element::attribute(std::string_view name) const
@@ -139,38 +141,41 @@ SourceLocation Element::part_place(const Attribute& attribute, std::size_t begin
 
 std::string read_text(const std::filesystem::path& path)
 {
-    constexpr std::size_t max_size = std::size_t{1} << 30;
     std::error_code status;
     if (std::filesystem::is_directory(path, status))
         throw Error(fmt::format("'{}' is a folder, not a scene file", path.string()));
     if (!std::filesystem::exists(path, status))
         throw Error(fmt::format("there is no file '{}'", path.string()));
-    std::ifstream stream(path, std::ios::binary);
-    std::string text;
-    char block[1 << 16];
-    while (stream && text.size() <= max_size) {
-        stream.read(block, sizeof block);
-        text.append(block, static_cast<std::size_t>(stream.gcount()));
-    }
-    if (!stream.eof()) {
-        if (text.size() > max_size)
-            throw Error(fmt::format("'{}' is larger than 1 GiB: not a scene file", path.string()));
-        throw Error(fmt::format("cannot read '{}'", path.string()));
-    }
+    const RegularFile file(path);
+    if (file.size() > max_text_size)
+        throw Error(
+            fmt::format("'{}' is larger than {} MiB: not a scene file", path.string(), max_text_size >> 20));
+    std::string text(file.size(), '\0');
+    file.read(0, text);
     return text;
 }
 
 std::optional<Element> parse_document(const std::filesystem::path& path, std::string text,
                                       Diagnostics& diagnostics)
 {
-    const auto file = std::make_shared<const TextFile>(path, std::move(text));
+    const std::string_view tag = root_tag(text);
+    const bool is_ours = tag == "scene" || tag == "test" || tag == "suite";
+    // The text moves and the tag with it, so this comes before.
+    Element stranger;
+    stranger.tag = tag;
+    stranger.tag_offset = tag.empty() ? 0 : static_cast<std::size_t>(tag.data() - text.data()) - 1;
+    const auto file = std::make_shared<const TextFile>(path, std::move(text), !is_ours);
     const auto fail = [&](std::size_t offset, std::size_t length, std::string_view message) {
         diagnostics.error(file->place(offset, length), std::string(message));
         return std::nullopt;
     };
     if (const std::string_view message = unreadable_encoding(file->text()); !message.empty())
         return fail(0, 1, message);
-    if (const auto error = scan_xml(file->text(), max_nesting))
+    if (!is_ours && !stranger.tag.empty()) {
+        stranger.file = file;
+        return stranger;
+    }
+    if (const auto error = scan_xml(file->text(), {}))
         return fail(error->offset, error->length, error->message);
 
     std::string buffer = file->text();

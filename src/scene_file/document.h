@@ -17,7 +17,8 @@ namespace plumb {
 // The text of a file, and where its lines start.
 class TextFile {
 public:
-    TextFile(std::filesystem::path path, std::string text);
+    // hides_lines: places do not show their lines.
+    TextFile(std::filesystem::path path, std::string text, bool hides_lines);
 
     const std::filesystem::path& path() const { return path_; }
     std::filesystem::path folder() const { return path_.parent_path(); }
@@ -27,6 +28,7 @@ public:
 private:
     std::filesystem::path path_;
     std::string text_;
+    bool hides_lines_;
     std::vector<std::size_t> line_starts_;
 };
 
@@ -59,12 +61,14 @@ struct Element {
     SourceLocation part_place(const Attribute& attribute, std::size_t begin, std::size_t length) const;
 };
 
-inline constexpr int max_nesting = 64;
+inline constexpr std::size_t max_text_size = std::size_t{256} << 20;
 
-// The bytes of a file. Throws Error.
+// The bytes of a regular file. Throws Error.
 std::string read_text(const std::filesystem::path& path);
 
-// The root element. What is wrong with the XML goes to `diagnostics`; nothing where no tree could be made.
+// The root element. What is wrong with the XML goes to `diagnostics`; nothing where no tree could be made. Elements are
+// nested at most XmlLimits().depth levels. Of a file that does not begin with <scene>, <test> or <suite> nothing is
+// read or shown but its first tag: whoever wrote the scene that includes it may have no right to see it.
 std::optional<Element> parse_document(const std::filesystem::path& path, std::string text,
                                       Diagnostics& diagnostics);
 

@@ -13,9 +13,6 @@ namespace plumb {
 
 namespace {
 
-constexpr std::size_t max_include_depth = 64;
-constexpr std::size_t max_files = 1000; // files that include others twice would otherwise grow without end
-
 bool is_name_start(char c)
 {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
@@ -51,10 +48,18 @@ Use use_at(std::string_view text, std::size_t dollar)
     return {name, name.empty() ? 0 : name.size() + 1};
 }
 
+// Elements and attributes. Recursion ends: parse_document().
+std::size_t count_parts(const Element& element)
+{
+    std::size_t count = 1 + element.attributes.size();
+    for (const Element& child : element.children) count += count_parts(child);
+    return count;
+}
+
 class Expander {
 public:
-    Expander(const Definitions& definitions, Diagnostics& diagnostics)
-        : definitions_(definitions), values_(definitions), diagnostics_(diagnostics)
+    Expander(const Definitions& definitions, Diagnostics& diagnostics, const ExpansionLimits& limits)
+        : definitions_(definitions), values_(definitions), diagnostics_(diagnostics), limits_(limits)
     {}
 
     Expansion expand(Element root)
@@ -62,6 +67,8 @@ public:
         files_.push_back(root.file);
         open_.push_back(identity(root.file->path()));
         if (root.tag == "suite") kind_ = "suite";
+        text_size_ = root.file->text().size();
+        parts_ = count_parts(root);
         gather_children(root);
         substitute_all(root);
         reject_unused_definitions();
@@ -115,7 +122,9 @@ private:
         }
         declared_.insert(name);
         substitute_all(element);
-        values_.emplace(name, element.value("value")); // what is there already wins
+        const bool is_new =
+            values_.emplace(name, element.value("value")).second; // what is there already wins
+        if (is_new && element.attribute("value")->broken) broken_values_.insert(name);
     }
 
     void include(Element& element, std::vector<Element>& children)
@@ -130,19 +139,29 @@ private:
         };
         if (std::find(open_.begin(), open_.end(), identity(path)) != open_.end())
             return fail(fmt::format("'{}' includes itself, directly or through other files", path.string()));
-        if (open_.size() > max_include_depth)
-            return fail(fmt::format("files include each other more than {} levels deep", max_include_depth));
-        if (files_.size() >= max_files)
-            return fail(fmt::format("more than {} files are included", max_files));
+        if (open_.size() > limits_.depth)
+            return fail(fmt::format("files include each other more than {} levels deep", limits_.depth));
+        if (files_.size() >= limits_.files)
+            return fail(fmt::format("more than {} files are included", limits_.files));
 
+        if (text_size_ > limits_.text_size || parts_ > limits_.parts) return; // has been reported
         std::optional<Element> root;
         try {
-            root = parse_document(path, read_text(path), diagnostics_);
+            std::string text = read_text(path);
+            text_size_ += text.size();
+            if (text_size_ > limits_.text_size)
+                return fail(fmt::format("with '{}', the files of this {} are larger than {} bytes together",
+                                        path.string(), kind_, limits_.text_size));
+            root = parse_document(path, std::move(text), diagnostics_);
         } catch (const Error& error) {
             return fail(error.what());
         }
         if (!root) return;
         files_.push_back(root->file);
+        parts_ += count_parts(*root);
+        if (parts_ > limits_.parts)
+            return fail(fmt::format("with '{}', this {} has more than {} elements and attributes",
+                                    path.string(), kind_, limits_.parts));
         if (root->tag != kind_) {
             diagnostics_.error(
                 root->place(),
@@ -161,7 +180,7 @@ private:
         open_.pop_back();
     }
 
-    // Recursion ends: elements are nested at most max_nesting levels.
+    // Recursion ends: parse_document().
     void substitute_all(Element& element)
     {
         for (Attribute& attribute : element.attributes) substitute(element, attribute);
@@ -184,18 +203,38 @@ private:
             }
             result.append(text, done, dollar - done);
             done = dollar + use.length;
-            if (use.name.empty())
+            if (use.name.empty()) {
                 result += '$';
-            else if (const std::string* value = find_value(use.name))
-                result += *value;
-            else {
-                fail_undefined(use.name, element.part_place(attribute, dollar, use.length));
-                attribute.broken = true;
+                continue;
             }
+            const std::string* const value = find_value(use.name);
+            if (!value) fail_undefined(use.name, element.part_place(attribute, dollar, use.length));
+            if (!value || broken_values_.contains(use.name)) {
+                attribute.broken = true;
+                continue;
+            }
+            if (result.size() + value->size() > limits_.value_size)
+                return fail_replaced(element, attribute,
+                                     fmt::format("with ${} replaced, this value is longer than {} bytes",
+                                                 use.name, limits_.value_size));
+            result += *value;
         }
         if (done == 0) return;
+        replaced_size_ += result.size();
+        if (replaced_size_ > limits_.replaced_size)
+            return fail_replaced(
+                element, attribute,
+                fmt::format("with all $names replaced, the values of this {} are longer than {} bytes "
+                            "together",
+                            kind_, limits_.replaced_size));
         attribute.value = result.append(text, done);
         attribute.verbatim = false;
+    }
+
+    void fail_replaced(const Element& element, Attribute& attribute, std::string message)
+    {
+        diagnostics_.error(element.value_place(attribute), std::move(message));
+        attribute.broken = true;
     }
 
     const std::string* find_value(std::string_view name)
@@ -207,8 +246,9 @@ private:
 
     void fail_undefined(std::string_view name, const SourceLocation& at)
     {
-        std::vector<std::string_view> known;
-        for (const auto& [known_name, value] : values_) known.push_back(known_name);
+        std::vector<std::string_view> known; // in vain where there are many errors and many names
+        if (diagnostics_.keeps(Severity::error, fmt::format("${} has no value", name)))
+            for (const auto& [known_name, value] : values_) known.push_back(known_name);
         const std::string_view closest = closest_name(name, known);
         diagnostics_.error(
             at, closest.empty()
@@ -232,18 +272,25 @@ private:
     const Definitions& definitions_;
     Definitions values_;
     Diagnostics& diagnostics_;
+    const ExpansionLimits& limits_;
     std::string_view kind_ = "scene"; // of file
     std::vector<std::shared_ptr<const TextFile>> files_;
     std::vector<std::filesystem::path> open_; // the files being read, the main one first
+    std::size_t text_size_ = 0;               // of all files
+    std::size_t parts_ = 0;                   // elements and attributes of all files
+    std::size_t replaced_size_ = 0;           // of all values in which variables were replaced
     std::set<std::string> declared_;          // by <default>
-    std::set<std::string> used_;              // as $name
+    std::set<std::string, std::less<>>
+        broken_values_;          // names of values with an error, which has been reported
+    std::set<std::string> used_; // as $name
 };
 
 } // namespace
 
-Expansion expand(Element root, const Definitions& definitions, Diagnostics& diagnostics)
+Expansion expand(Element root, const Definitions& definitions, Diagnostics& diagnostics,
+                 const ExpansionLimits& limits)
 {
-    return Expander(definitions, diagnostics).expand(std::move(root));
+    return Expander(definitions, diagnostics, limits).expand(std::move(root));
 }
 
 } // namespace plumb

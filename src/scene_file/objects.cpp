@@ -114,7 +114,8 @@ void ObjectReader::add_texture(const Element& child)
     std::shared_ptr<const Texture> texture = reader.build(texture_types());
     if (texture) context_.texture_bytes += texture->memory_bytes();
     const std::string name = child.value("name");
-    if (child.attribute("name") && is_first(child, name) && texture)
+    // One that could not be made still stands here, so that a wrong name is found, too.
+    if (child.attribute("name") && is_first(child, name))
         params_.add_texture({name, std::move(texture), child.value_place(*child.attribute("name"))});
 }
 

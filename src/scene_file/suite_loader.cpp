@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <system_error>
+#include <unordered_map>
 
 #include <fmt/format.h>
 
@@ -15,6 +16,11 @@ namespace plumb {
 namespace {
 
 namespace fs = std::filesystem;
+
+// Each picture has a copy of all that holds for it, so that a small file can ask for very much.
+constexpr std::size_t max_entries = 10'000;
+constexpr std::size_t max_definitions = 1000;                     // of one picture
+constexpr std::size_t max_settings_size = std::size_t{256} << 20; // of all pictures, in bytes
 
 // What a <suite> or <group> says of all that is in it.
 struct Inherited {
@@ -44,6 +50,16 @@ std::vector<std::string_view> words_of(std::string_view text)
         words.push_back(text.substr(0, end));
         text.remove_prefix(end);
     }
+}
+
+std::size_t size_of_settings(const SuiteEntry& entry)
+{
+    std::size_t size = 0;
+    for (const auto* const settings : {&entry.settings, &entry.reference_settings})
+        for (const auto& [name, setting] : *settings)
+            size += sizeof setting + setting.value.size() + setting.at.line_text.size();
+    for (const auto& [name, value] : entry.definitions) size += name.size() + value.size();
+    return size;
 }
 
 // A file that the user wrote: seen from the suite's folder or, if there is none, from the current one.
@@ -97,7 +113,7 @@ public:
     }
 
 private:
-    // Recursion ends: elements are nested at most max_nesting levels.
+    // Recursion ends: parse_document().
     void read_group(const Element& group, Inherited inherited)
     {
         const bool is_root = group.tag == "suite";
@@ -166,29 +182,40 @@ private:
     void add_counts(SuiteEntry entry)
     {
         const auto spp = entry.settings.find("spp");
-        if (spp == entry.settings.end()) return add(std::move(entry));
+        if (spp == entry.settings.end()) {
+            add(std::move(entry));
+            return;
+        }
         const std::string counts = spp->second.value;
         const std::vector<std::string_view> words = words_of(counts);
         if (words.empty()) diagnostics_.error(spp->second.at, "spp needs a number of samples per pixel");
         for (const std::string_view count : words) {
             entry.settings["spp"].value = count;
-            add(entry);
+            if (!add(entry)) return;
         }
     }
 
-    void add(SuiteEntry entry)
+    // Whether there is room for more.
+    bool add(SuiteEntry entry)
     {
+        settings_size_ += size_of_settings(entry);
+        if (entries_.size() >= max_entries || settings_size_ > max_settings_size) {
+            diagnostics_.error(entry.at,
+                               fmt::format("a suite has at most {} pictures, with at most {} MiB of settings",
+                                           max_entries, max_settings_size >> 20));
+            return false;
+        }
         const std::string title = entry.title();
-        const auto same = std::find_if(entries_.begin(), entries_.end(),
-                                       [&](const SuiteEntry& other) { return other.title() == title; });
-        if (same == entries_.end()) {
+        const auto [same, is_new] = numbers_.emplace(title, entries_.size());
+        if (is_new) {
             entries_.push_back(std::move(entry));
-            return;
+            return true;
         }
         diagnostics_.error(entry.at, fmt::format("two entries write '{}.exr'; give one of them another name: "
                                                  R"(<render name="..." .../>)",
                                                  title));
-        diagnostics_.note(same->at, "the other one is here");
+        diagnostics_.note(entries_[same->second].at, "the other one is here");
+        return true;
     }
 
     bool check_name(const Element& element, const Attribute& name)
@@ -249,7 +276,10 @@ private:
             if (child.tag == "define") {
                 for (const Element& grandchild : child.children)
                     diagnostics_.error(grandchild.place(), cannot_contain(child, grandchild));
-                if (check_attributes(child, {"name", "value"}, {}, diagnostics_))
+                if (inherited.definitions.size() >= max_definitions)
+                    diagnostics_.error(child.place(),
+                                       fmt::format("a picture has at most {} definitions", max_definitions));
+                else if (check_attributes(child, {"name", "value"}, {}, diagnostics_))
                     inherited.definitions[child.value("name")] = child.value("value");
             } else if (!is_group || (child.tag != "render" && child.tag != "group")) {
                 reject(element, child);
@@ -269,6 +299,8 @@ private:
     std::span<const std::string_view> settings_;
     Diagnostics& diagnostics_;
     std::vector<SuiteEntry> entries_;
+    std::unordered_map<std::string, std::size_t> numbers_; // of entries, by their titles
+    std::size_t settings_size_ = 0;
 };
 
 bool check_root(const Element& root, Diagnostics& diagnostics)

@@ -30,16 +30,14 @@ bool is_name_start(char c)
 
 class Scanner {
 public:
-    Scanner(std::string_view text, int max_depth)
-        : text_(text), max_depth_(static_cast<std::size_t>(max_depth))
-    {}
+    Scanner(std::string_view text, const XmlLimits& limits) : text_(text), limits_(limits) {}
 
     // Throws XmlError, which never leaves this file.
     void scan()
     {
         if (const auto zero = text_.find('\0'); zero != text_.npos)
             fail(zero, 1, "the file contains a zero byte: this is not a text file");
-        if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3; // byte order mark
+        skip_mark();
         while (at_ < text_.size()) {
             if (text_[at_] == '<')
                 scan_markup();
@@ -51,6 +49,19 @@ public:
             fail(text_.size(), 1, "the file has no root element; a scene file consists of one <scene>");
     }
 
+    // Throws XmlError as well.
+    std::string_view root_tag()
+    {
+        skip_mark();
+        for (skip_blanks(); at_ < text_.size(); skip_blanks()) {
+            const std::string_view rest = text_.substr(at_);
+            if (!rest.starts_with("<!") && !rest.starts_with("<?"))
+                return rest.starts_with('<') ? name_at(at_ + 1) : std::string_view();
+            scan_markup();
+        }
+        return {};
+    }
+
 private:
     [[noreturn]] static void fail(std::size_t offset, std::size_t length, std::string message)
     {
@@ -58,6 +69,17 @@ private:
     }
 
     char peek() const { return at_ < text_.size() ? text_[at_] : '\0'; }
+
+    void skip_mark()
+    {
+        if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3; // byte order mark
+    }
+
+    void count_part(std::size_t offset)
+    {
+        if (++parts_ > limits_.parts)
+            fail(offset, 1, fmt::format("the file has more than {} elements and attributes", limits_.parts));
+    }
 
     void skip_blanks()
     {
@@ -162,16 +184,17 @@ private:
         if (open_.empty() && has_root_)
             fail(start, name.size() + 1, fmt::format("<{}> is a second root element; a file has one", name));
         has_root_ = true;
+        count_part(start);
 
-        while (true) {
+        for (std::size_t attributes = 0;; ++attributes) {
             const std::size_t before = at_;
             skip_blanks();
             if (peek() == '>') {
                 ++at_;
                 open_.push_back(name_offset);
-                if (open_.size() > max_depth_)
+                if (open_.size() > limits_.depth)
                     fail(start, name.size() + 1,
-                         fmt::format("elements are nested deeper than {} levels", max_depth_));
+                         fmt::format("elements are nested deeper than {} levels", limits_.depth));
                 return;
             }
             if (text_.substr(at_, 2) == "/>") {
@@ -182,6 +205,9 @@ private:
                 fail(start, name.size() + 1, fmt::format("expected '>' at the end of <{}", name));
             if (before == at_)
                 fail(at_, 1, "expected a blank, '>' or '/>' here; is a quote missing or misplaced?");
+            if (attributes == limits_.attributes)
+                fail(at_, 1, fmt::format("<{}> has more than {} attributes", name, limits_.attributes));
+            count_part(at_);
             scan_attribute();
         }
     }
@@ -207,21 +233,31 @@ private:
     }
 
     std::string_view text_;
-    std::size_t max_depth_;
+    const XmlLimits& limits_;
     std::size_t at_ = 0;
+    std::size_t parts_ = 0; // elements and attributes
     bool has_root_ = false;
     std::vector<std::size_t> open_; // offsets of the names of open tags
 };
 
 } // namespace
 
-std::optional<XmlError> scan_xml(std::string_view text, int max_depth)
+std::optional<XmlError> scan_xml(std::string_view text, const XmlLimits& limits)
 {
     try {
-        Scanner(text, max_depth).scan();
+        Scanner(text, limits).scan();
         return {};
     } catch (const XmlError& error) {
         return error;
+    }
+}
+
+std::string_view root_tag(std::string_view text)
+{
+    try {
+        return Scanner(text, {}).root_tag();
+    } catch (const XmlError&) {
+        return {};
     }
 }
 

@@ -159,18 +159,54 @@ TEST_CASE("an attribute given twice", "[unit][document]")
 TEST_CASE("deep nesting is an error, not a crash", "[unit][document]")
 {
     const auto nested = [](int depth) {
-        std::string text;
-        for (int i = 0; i < depth; ++i) text += "<a>";
-        for (int i = 0; i < depth; ++i) text += "</a>";
-        return text;
+        std::string text = "<scene>";
+        for (int i = 1; i < depth; ++i) text += "<a>";
+        for (int i = 1; i < depth; ++i) text += "</a>";
+        return text + "</scene>";
     };
     Diagnostics diagnostics;
-    CHECK(parse(nested(max_nesting), diagnostics));
+    CHECK(parse(nested(64), diagnostics));
     CHECK(diagnostics.all().empty());
-    CHECK(parse_error(nested(max_nesting + 1)) == "1:193: elements are nested deeper than 64 levels");
-    CHECK(parse_error(nested(20000)) == "1:193: elements are nested deeper than 64 levels");
+    CHECK(parse_error(nested(65)) == "1:197: elements are nested deeper than 64 levels");
+    CHECK(parse_error(nested(20000)) == "1:197: elements are nested deeper than 64 levels");
     CHECK(parse_error(std::string(3000000, '<')) ==
           "1:1: expected a tag's name after '<'; write &lt; for the sign itself");
+}
+
+TEST_CASE("elements have a bounded number of attributes, and files of both", "[unit][document]")
+{
+    const auto attributes = [](int count) {
+        std::string text = "<scene>\n<a";
+        for (int i = 0; i < count; ++i) text += " a" + std::to_string(i) + "=''";
+        return text + "/></scene>";
+    };
+    CHECK(parse(attributes(256)).children[0].attributes.size() == 256);
+    CHECK_THAT(parse_error(attributes(257)), ContainsSubstring("2:1942: <a> has more than 256 attributes"));
+    const std::string text = "<scene><a x=''/><a/></scene>"; // 4 in all
+    CHECK_FALSE(scan_xml(text, {.parts = 4}));
+    REQUIRE(scan_xml(text, {.parts = 3}));
+    CHECK(scan_xml(text, {.parts = 3})->message == "the file has more than 3 elements and attributes");
+    CHECK(scan_xml(text, {.parts = 3})->offset == 16);
+}
+
+TEST_CASE("the root's tag is found before anything is read", "[unit][document]")
+{
+    CHECK(root_tag("<scene>") == "scene");
+    CHECK(root_tag("\xEF\xBB\xBF <?xml?>\n<!-- <a> --><!DOCTYPE b [ <c> ]>\t<scene x") == "scene");
+    for (const char* const text :
+         {"", " \n", "scene", "x <scene>", "<!-- <scene>", "<? <scene>", "< scene>", "</scene>", "<"})
+        CHECK(root_tag(text).empty());
+    // Of other files there is no more than that tag.
+    Diagnostics diagnostics;
+    const auto other = parse(" <html a='1' a='2'><b></html>", diagnostics);
+    REQUIRE(other);
+    CHECK(diagnostics.all().empty());
+    CHECK(other->tag == "html");
+    CHECK(other->attributes.empty());
+    CHECK(other->children.empty());
+    CHECK(other->place().column == 2);
+    CHECK(other->place().hides_line);
+    CHECK_FALSE(parse("<scene/>").place().hides_line);
 }
 
 // Whatever the scan lets pass, the parser must understand in the same way; nothing may crash.
@@ -190,7 +226,8 @@ TEST_CASE("damaged files", "[unit][document]")
         }
         Diagnostics diagnostics;
         const auto root = parse(good.substr(0, i), diagnostics);
-        CHECK((i + 1 == good.size() || diagnostics.has_errors()));
+        // Where the root's tag is cut, too, nothing more is read.
+        CHECK((i + 1 == good.size() || diagnostics.has_errors() || (root && root->tag != "scene")));
     }
 }
 

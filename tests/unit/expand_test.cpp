@@ -5,6 +5,8 @@
 
 #include <fstream>
 
+#include <fmt/format.h>
+
 using namespace plumb;
 
 namespace {
@@ -19,19 +21,19 @@ public:
         return *this;
     }
 
-    Expansion expand(const Definitions& definitions = {})
+    Expansion expand(const Definitions& definitions = {}, const ExpansionLimits& limits = {})
     {
         diagnostics_ = {};
         const auto path = folder_.path() / "main.xml";
         auto root = parse_document(path, read_text(path), diagnostics_);
         REQUIRE(root);
-        return plumb::expand(*root, definitions, diagnostics_);
+        return plumb::expand(*root, definitions, diagnostics_, limits);
     }
 
     // "file:line:column: message" of each error and warning.
-    std::string errors(const Definitions& definitions = {})
+    std::string errors(const Definitions& definitions = {}, const ExpansionLimits& limits = {})
     {
-        expand(definitions);
+        expand(definitions, limits);
         std::string text;
         for (const Diagnostic& found : diagnostics_.all())
             text += std::filesystem::path(found.location.file).filename().string() + ":" +
@@ -154,6 +156,72 @@ TEST_CASE("files that cannot be included", "[unit][expand]")
     CHECK_THAT(errors, ContainsSubstring("b.xml:2:21: '"));
     CHECK_THAT(errors, ContainsSubstring("dialect.xml:1:8: the dialect of an included file is ignored"));
     CHECK_THAT(errors, ContainsSubstring("main.xml:8:33: an <include> cannot contain a <x>"));
+}
+
+TEST_CASE("values stay bounded, however variables multiply them", "[unit][expand]")
+{
+    const auto doubling = [](int levels, int uses) { // a value of 2^levels bytes
+        std::string text = "<scene>\n<default name='a0' value='x'/>\n";
+        for (int i = 1; i <= levels; ++i)
+            text += fmt::format("<default name='a{0}' value='$a{1}$a{1}'/>\n", i, i - 1);
+        for (int i = 0; i < uses; ++i) text += fmt::format("<x v='$a{}'/>\n", levels);
+        return text + "</scene>";
+    };
+    Files files;
+    files.write("main.xml", doubling(20, 3));
+    const Element root = files.expand().root;
+    CHECK(files.diagnostics().all().empty());
+    CHECK(root.children[2].value("v").size() == std::size_t{1} << 20);
+    files.write("main.xml", doubling(100, 1));
+    CHECK(files.errors() == "main.xml:23:28: with $a20 replaced, this value is longer than 1048576 bytes\n");
+
+    // Each is short enough, but not all together.
+    files.write("main.xml", doubling(20, 80));
+    CHECK_THAT(files.errors(),
+               ContainsSubstring("main.xml:85:7: with all $names replaced, the values of this scene are "
+                                 "longer than 67108864 bytes together"));
+    std::size_t size = 0;
+    for (const Element& child : files.expand().root.children) size += child.value("v").size();
+    CHECK(size <= std::size_t{64} << 20);
+}
+
+TEST_CASE("many variables without a value are reported in little time", "[unit][expand]")
+{
+    std::string text = "<scene>";
+    for (int i = 0; i < 5000; ++i) text += fmt::format("<default name='name{}' value='1'/>", i);
+    for (int i = 0; i < 5000; ++i) text += fmt::format("<x v='$nome{}'/>", i);
+    Files files;
+    files.write("main.xml", text + "</scene>");
+    files.expand(); // 400 million comparisons of words would take minutes
+    REQUIRE(files.diagnostics().all().size() == 20);
+    CHECK_THAT(files.diagnostics().all().front().message, ContainsSubstring("did you mean '$name0'?"));
+    CHECK_THAT(files.diagnostics().all().back().message, ContainsSubstring("; and 4980 more like it"));
+}
+
+TEST_CASE("a small file that is included often does not become a large scene", "[unit][expand]")
+{
+    std::string main = "<scene>\n";
+    for (int i = 0; i < 5; ++i)
+        main += "<include filename='part.xml'/>\n"; // of 5, 10 parts with their attributes
+    Files files;
+    files.write("part.xml", "<scene><a/><a x='1' y='2'/></scene>").write("main.xml", main + "</scene>");
+    ExpansionLimits limits;
+    limits.parts = 36;
+    CHECK(files.errors({}, limits).empty());
+    limits.parts = 30;
+    CHECK_THAT(files.errors({}, limits),
+               ContainsSubstring("main.xml:5:20: with '") &&
+                   ContainsSubstring("part.xml', this scene has more than 30 elements and attributes\n"));
+    CHECK(files.expand({}, limits).root.children.size() == 6);
+
+    // And one that is all comments.
+    files.write("part.xml", "<scene><!--" + std::string(1000, 'x') + "--></scene>");
+    limits = {};
+    limits.text_size = 4000;
+    CHECK_THAT(
+        files.errors({}, limits),
+        ContainsSubstring("main.xml:5:20: with '") &&
+            ContainsSubstring("part.xml', the files of this scene are larger than 4000 bytes together\n"));
 }
 
 TEST_CASE("includes come to an end", "[unit][expand]")

@@ -232,6 +232,74 @@ TEST_CASE("all errors of all files come at once, in order", "[unit][loader]")
     }
 }
 
+TEST_CASE("a file that is missing or broken hides no other mistake", "[unit][loader]")
+{
+    const TempFolder folder;
+    folder.write("bad.obj", "f 1 2 3\n");
+    folder.write("bad.png", "no picture");
+    const std::string name = GENERATE(as<std::string>{}, "none", "bad");
+    const auto path = folder.write(
+        "main.xml",
+        "<scene dialect='plumb'>\n<integrator type='normals'/><camera type='perspective'/>\n<mesh "
+        "type='obj'>\n"
+        "<string name='filename' value='" +
+            name +
+            ".obj'/>\n"
+            "<transform name='toWrld'/>\n"
+            "<emitter type='area'>\n<color name='radiance' value='-1 1 1'/>\n<float name='scl' "
+            "value='1'/></emitter>\n"
+            "<bsdf type='diffuse'>\n<texture type='imagetexture_color3f' name='albdo'>\n"
+            "<string name='filepath' value='" +
+            name +
+            ".png'/>\n"
+            "<boolean name='rw' value='true'/>\n<boolean name='raw' "
+            "value='perhaps'/></texture></bsdf></mesh>\n"
+            "<emitter type='environment'>\n<string name='filename' value='" +
+            name +
+            ".png'/>\n"
+            "<color name='radiance' value='-1 1 1'/>\n<float name='rot' value='1'/></emitter>\n"
+            "<shape type='sphere'><bsdf type='diffuse'>\n<texture type='textmap' name='reflectance'>\n"
+            "<string name='filename' value='" +
+            name +
+            ".png'/>\n<color name='color' value='1 -1 1'/>\n"
+            "<float name='sclx' value='1'/>\n</texture></bsdf></shape>\n</scene>\n");
+    try {
+        load_scene(path);
+        FAIL("no error");
+    } catch (const SceneError& error) {
+        std::vector<int> lines;
+        for (const Diagnostic& found : error.diagnostics())
+            if (found.severity == Severity::error && found.location.file == path.string())
+                lines.push_back(found.location.line);
+        if (name == "bad") lines.insert(lines.begin(), 4); // the error is in bad.obj
+        CHECK(lines == std::vector<int>{4, 5, 7, 8, 10, 11, 12, 13, 15, 16, 17, 19, 20, 21, 22});
+    }
+}
+
+TEST_CASE("many thousand mistakes take little time, memory and output", "[unit][loader]")
+{
+    std::string inside;
+    std::string shapes;
+    for (int i = 0; i < 40'000; ++i) inside += "<bogus/>";
+    for (int i = 0; i < 3000; ++i)
+        shapes += "<shape type='sphere'><bogus/><bogus/><float name='radius' value='-1'/></shape>\n";
+    const TempFolder folder;
+    const auto path = folder.write(
+        "main.xml", "<scene dialect='plumb'><integrator type='normals'/><camera type='perspective'/>\n" +
+                        inside + shapes + "</scene>");
+    try {
+        load_scene(path);
+        FAIL("no error");
+    } catch (const SceneError& error) {
+        CHECK(error.diagnostics().size() == 40);
+        const std::string text = error.what();
+        CHECK(text.size() < 40'000);
+        CHECK_THAT(
+            text, ContainsSubstring("unknown tag <bogus>") && ContainsSubstring("; and 45980 more like it") &&
+                      ContainsSubstring("radius must be greater than 0, not -1; and 2980 more like it"));
+    }
+}
+
 TEST_CASE("a picture must fit into memory", "[unit][loader]")
 {
     const std::string xml =

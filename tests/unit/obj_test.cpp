@@ -88,6 +88,52 @@ TEST_CASE("OBJ files with triangles, quads and every kind of index", "[unit][obj
     CHECK(mesh.warning.empty());
 }
 
+TEST_CASE("statements of an OBJ file go on behind a backslash at the end of a line", "[unit][obj]")
+{
+    const std::string end = GENERATE(as<std::string>{}, "\n", "\r\n", "\r");
+    const std::string text =
+        GENERATE(as<std::string>{}, "f 1 2 \\|3 4", "f \\|1 2\\|3\\|4", "f\\|1 2 3 4", "f 1 2 3\\|\\| \\|4",
+                 "\\|f 1 2 3 4", "f 1 2 3|f 1\\|3 4", "f 1\\|2 3|f 1 3 4 # end\\|g x", "f 1 2 3 4\\",
+                 "# C:\\|f 1 2 3 4", "mtllib C:\\a\\b.mtl|f 1 2 3 4", "g a \\|f 1 2 3|f 1 2 3 4",
+                 "l 1 2 \\|3 4|f 1 2 3 4", "f 1 2 3 4|\\|");
+    std::string whole = "v 0 0\\|0|v 1 0 \\|\t0|v\\|1 1 0|v 0 1 0 \\|# end|" + text;
+    for (std::size_t i = whole.find('|'); i != whole.npos; i = whole.find('|')) whole.replace(i, 1, end);
+    CAPTURE(whole);
+    const MeshData mesh = read_text(whole);
+    CHECK(mesh.positions == std::vector<Vec3f>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
+    CHECK(mesh.triangles == std::vector<MeshData::Triangle>{{0, 1, 2}, {0, 2, 3}});
+    CHECK(mesh.warning.empty());
+}
+
+TEST_CASE("corners of an OBJ file may leave out what follows their slashes", "[unit][obj]")
+{
+    const std::string before = square + "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n";
+    const MeshData plain = read_text(before + "f 1 2 3\nf 1 3 4\n");
+    for (const std::string face :
+         {"f 1// 2// 3//\nf 1// 3// 4//\n", "f 1/ 2/ 3/\nf 1/ 3/ 4/\n", "f 1 2// 3/\nf -4// -2 -1/\n",
+          "f 1 2 3\nf 1// 3 4\n", "f 1// 2 3 # a\nf 1 3\\\n 4//\n"}) {
+        CAPTURE(face);
+        const MeshData mesh = read_text(before + face);
+        CHECK(mesh.positions == plain.positions);
+        CHECK(mesh.triangles == plain.triangles);
+        CHECK(mesh.uvs.empty());
+    }
+    const MeshData textured = read_text(before + "f 1/1/ 2/2/ 3/3/\nf -4/-4/ 3/3 4/4/\n");
+    CHECK(textured.triangles == plain.triangles);
+    CHECK(textured.uvs == std::vector<Vec2f>{{0, 0}, {1, 0}, {1, 1}, {0, 1}});
+}
+
+TEST_CASE("the materials of an OBJ file are counted, not read", "[unit][obj]")
+{
+    const auto warning = [](const std::string& text) { return read_text(square + text).warning; };
+    CHECK(warning("usemtl a\nf 1 2 3\nusemtl a\nf 1 3 4\n").empty());
+    CHECK(warning("usemtl a\nusemtl b\nf 1 2 3\nusemtl c\n").empty()); // no face has a or c
+    CHECK(warning("f 1 2 3\nusemtl a\nf 1 3 4\n").empty());
+    CHECK(warning("# usemtl a\nusemtlx b\nf 1 2 3\nusemtl a\nf 1 3 4\n").empty());
+    CHECK(warning("usemtl a\nf 1 2 3\n usemtl\tb c \r\nf 1 3 4\nusemtl b c\nf 1 2 4\n") ==
+          "the faces name 2 materials (usemtl), which are not read: all have the one BSDF of the scene file");
+}
+
 TEST_CASE("OBJ files with other line ends, with a byte order mark and without a last line end", "[unit][obj]")
 {
     const std::string end = GENERATE(as<std::string>{}, "\n", "\r\n", "\r");
@@ -240,8 +286,13 @@ TEST_CASE("every mistake in an OBJ file is an error with its place", "[unit][obj
         {"v 0 +-1 0\n" + good, "1:5 [+-1] '+-1' is not a number; a vertex is written v x y z"},
         {"v 0 0\n" + good, "1:1 [v] a vertex needs 3 numbers, not 2: v x y z"},
         {"v\n" + good, "1:1 [v] a vertex needs 3 numbers, not 0: v x y z"},
-        {"v 0 0 \\\n0\n" + good,
-         "1:7 [\\] lines continued with '\\' are not supported; write the line as one"},
+        {"v 0 0 \\\nx\n" + good, "2:1 [x] 'x' is not a number; a vertex is written v x y z"},
+        {"v 0 \\\r\n 0\\\r\n\\\r\nx\r\n" + good, "4:1 [x] 'x' is not a number; a vertex is written v x y z"},
+        {"v 0 0\\\n\n" + good, "1:1 [v] a vertex needs 3 numbers, not 2: v x y z"},
+        {"v 0 0 \\ \n0\n" + good, "1:7 [\\] '\\' is not a number; a vertex is written v x y z"},
+        {"v 0 0 0 # \\\nv 0 x 0\n" + good, "2:5 [x] 'x' is not a number; a vertex is written v x y z"},
+        {"# C:\\a\\\nv 0 x 0\n" + good, "2:5 [x] 'x' is not a number; a vertex is written v x y z"},
+        {"v 0 0 0\rv 0 0 0\r v 0 y 0\r" + good, "3:6 [y] 'y' is not a number; a vertex is written v x y z"},
         {"vn 1 0\n" + good, "1:1 [vn] a normal needs 3 numbers, not 2: vn x y z"},
         {"vt\n" + good, "1:1 [vt] a texture coordinate needs 1 number, not 0: vt u v"},
         {"vt 0 x\n" + good, "1:6 [x] 'x' is not a number; a texture coordinate is written vt u v"},
@@ -261,16 +312,25 @@ TEST_CASE("every mistake in an OBJ file is an error with its place", "[unit][obj
         {good + "f 1 2\n", "7:1 [f 1 2] a face needs at least 3 corners, not 2"},
         {good + "f\n", "7:1 [f] a face needs at least 3 corners, not 0"},
         {good + "f 1 2 3x\n", "7:7 [3x] '3x' is not a face corner; those are written p, p/t, p//n or p/t/n"},
-        {good + "f 1/ 2/ 3/\n",
-         "7:3 [1/] '1/' is not a face corner; those are written p, p/t, p//n or p/t/n"},
+        {good + "f 1/1/// 2 3\n",
+         "7:3 [1/1///] '1/1///' is not a face corner; those are written p, p/t, p//n or p/t/n"},
+        {good + "f 1/// 2 3\n",
+         "7:3 [1///] '1///' is not a face corner; those are written p, p/t, p//n or p/t/n"},
+        {good + "f 1/1/1/ 2 3\n",
+         "7:3 [1/1/1/] '1/1/1/' is not a face corner; those are written p, p/t, p//n or p/t/n"},
+        {good + "f 1//1/ 2 3\n",
+         "7:3 [1//1/] '1//1/' is not a face corner; those are written p, p/t, p//n or p/t/n"},
+        {good + "f /1 2 3\n", "7:3 [/1] '/1' is not a face corner; those are written p, p/t, p//n or p/t/n"},
         {good + "f 1/1/1/1 2 3\n",
          "7:3 [1/1/1/1] '1/1/1/1' is not a face corner; those are written p, p/t, p//n or "
          "p/t/n"},
         {good + "f 1 2 3#\n", "7:7 [3#] '3#' is not a face corner; those are written p, p/t, p//n or p/t/n"},
         {good + "f 1 2 1.5\n",
          "7:7 [1.5] '1.5' is not a face corner; those are written p, p/t, p//n or p/t/n"},
-        {good + "f 1 2 \\\n3\n",
-         "7:7 [\\] lines continued with '\\' are not supported; write the line as one"},
+        {good + "f 1 2 \\\n3x\n",
+         "8:1 [3x] '3x' is not a face corner; those are written p, p/t, p//n or p/t/n"},
+        {good + "f 1\\\n 2\\\n", "7:1 [f 1\\] a face needs at least 3 corners, not 2"},
+        {good + "f 1 2 3\nf 1\\\n2 5\n", "9:3 [5] vertex index 5 is out of range: the file has 4 vertices"},
         {good + "f 1 2 3\n\n f 1 a 3\n",
          "9:6 [a] 'a' is not a face corner; those are written p, p/t, p//n or p/t/n"},
     }));
@@ -280,7 +340,7 @@ TEST_CASE("every mistake in an OBJ file is an error with its place", "[unit][obj
 TEST_CASE("OBJ files that cannot be read are errors that name the file", "[unit][obj]")
 {
     const TempFolder folder;
-    CHECK_THROWS_WITH(read_obj(folder.path() / "none.obj"), ContainsSubstring("none.obj': No such file"));
+    CHECK_THROWS_WITH(read_obj(folder.path() / "none.obj"), ContainsSubstring("none.obj': no such file"));
     CHECK_THROWS_WITH(read_obj(folder.path()), ContainsSubstring("it is a folder"));
     CHECK_THAT(error_of(""), ContainsSubstring("the file is empty"));
     CHECK_THAT(error_of("\n"), ContainsSubstring("no faces"));
@@ -364,6 +424,42 @@ TEST_CASE("where an OBJ file is cut into chunks does not matter", "[unit][obj]")
         CHECK(good);
         CHECK(mesh.warning.empty());
     }
+}
+
+TEST_CASE("statements of an OBJ file may go on across the border of two chunks", "[unit][obj]")
+{
+    // Everything about the border is one statement, in lines of two bytes and more, so that it hits every place in it.
+    const std::string end = GENERATE(as<std::string>{}, "\n", "\r\n");
+    for (int shift = 0; shift < 12; ++shift) {
+        std::string text = square;
+        while (text.size() < (std::size_t{1} << 20) - 100) text += "# a comment" + end;
+        text += std::string(static_cast<std::size_t>(shift), ' ') + "v\\" + end;
+        for (int i = 0; i < 40; ++i) text += " \\" + end;
+        text += "7 \\" + end + "8" + end;
+        const std::string lines = text;
+        text += "f 1 2\\" + end + "3 5" + end;
+        for (int i = 0; i < 200; ++i) text += "# a comment" + end;
+        const MeshData mesh = read_text(text.replace(text.find("7 "), 2, "7 8 "));
+        REQUIRE(mesh.positions.size() == 4);
+        CHECK(mesh.positions[3] == Vec3f(7, 8, 8));
+        const auto number = std::count(lines.begin(), lines.end(), '\n') + 2;
+        CHECK(error_of(text + "f 1 2\\" + end + "3x" + end) ==
+              fmt::format("{}:1 [3x] '3x' is not a face corner; those are "
+                          "written p, p/t, p//n or p/t/n",
+                          number + 202));
+    }
+}
+
+TEST_CASE("materials of an OBJ file go on in the next chunk", "[unit][obj]")
+{
+    const auto warning = [](std::vector<std::pair<int, std::string>> lines) {
+        return read_text(Strip{0, "\n", std::move(lines)}.text()).warning;
+    };
+    const std::string face = "\nf -3/-1/-1 -2/-1/-1 -1/-1/-1";
+    CHECK(warning({{0, "usemtl a" + face}, {15990, "usemtl a" + face}}).empty());
+    CHECK(warning({{10, "usemtl a"}, {11, "usemtl b" + face}, {15990, "usemtl b" + face}}).empty());
+    CHECK_THAT(warning({{0, "usemtl a" + face}, {15990, "usemtl b" + face}}),
+               ContainsSubstring("2 materials"));
 }
 
 TEST_CASE("of an OBJ file's errors the first one is reported, whatever chunk it is in", "[unit][obj]")

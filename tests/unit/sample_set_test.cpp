@@ -10,6 +10,8 @@
 #include <set>
 #include <tuple>
 
+#include <fmt/format.h>
+
 using namespace plumb;
 using test::TestRandom;
 
@@ -107,6 +109,26 @@ TEST_CASE("the text of a set of samples", "[unit][sample_set]")
                               "-1,0,64,48:0-16", " 0,0,1,1:0-1", "0,0,0,48:0-16", "0,0,70000,48:0-16",
                               "0,0,64,48:0-99999999999", "0,0,64,48:0-99999999999999999999"})
         CHECK_FALSE(SampleSet::from_text(wrong));
+}
+
+TEST_CASE("texts of scattered blocks that would take all memory are refused", "[unit][sample_set]")
+{
+    std::string diagonal; // each block cuts the whole picture
+    for (int i = 0; i < 4000; ++i)
+        diagonal += fmt::format("{}{},{},1,1:0-4", i == 0 ? "" : " ", 16 * i, 16 * i);
+    CHECK_FALSE(SampleSet::from_text(diagonal));
+    std::string covers; // each covers all cells
+    for (int i = 0; i < 500; ++i)
+        covers += fmt::format("{}{},{},{},{}:0-4", i == 0 ? "" : " ", i, i, 2000 - 2 * i, 2000 - 2 * i);
+    CHECK_FALSE(SampleSet::from_text(covers));
+    std::string times; // all in one cell
+    for (int i = 0; i < 5000; ++i)
+        times += fmt::format("{}0,0,1,1:{}-{}", i == 0 ? "" : " ", 2 * i, 2 * i + 1);
+    CHECK_FALSE(SampleSet::from_text(times));
+    // The most scattered part of the largest picture is not.
+    const SampleSet part = part_of({0, 0, 65536, 65536}, 16, PartBy::tiles, 1, 3);
+    CHECK(part.blocks().size() > 10000);
+    CHECK(SampleSet::from_text(part.text()) == part);
 }
 
 TEST_CASE("parts are disjoint, complete and of about one size", "[unit][sample_set]")

@@ -3,6 +3,7 @@
 
 #include "cli/program.h"
 #include "cli/text_file.h"
+#include "io/regular_file.h"
 
 #include "plumb/hash.h"
 
@@ -31,6 +32,7 @@ std::string picture_key(const Options& options, const LoadedScene& scene)
 
 BatchState::BatchState(const std::filesystem::path& folder) : file_(folder / "state.txt")
 {
+    if (!problem_of_file(file_).empty()) return;
     std::ifstream stream(file_);
     std::string line;
     if (!std::getline(stream, line) || line != first_line) return;
