@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: MIT
 # shellcheck shell=bash
-# Sourced by tools/run, tools/test and tools/check: installs what is missing, configures and builds.
-# Everything it says goes to stderr.
+# Sourced by the other scripts: installs what is missing, configures and builds. Everything it says goes to stderr.
 #
 # Environment:
 #   PLUMB_SKIP_INSTALL=1            do not look for packages: everything needed is there
@@ -15,6 +14,7 @@ plumb_packages=(
     libembree-dev libopenimageio-dev libopenexr-dev libimath-dev
     libtinyobjloader-dev libpugixml-dev libtbb-dev libcli11-dev libfmt-dev catch2
 )
+[[ ${CXX:-} != clang++ ]] || plumb_packages+=(clang libclang-rt-dev)
 
 say() { printf 'plumb: %s\n' "$*" >&2; }
 die() { say "$@"; exit 1; }
@@ -81,16 +81,27 @@ install_packages() {
     fi
 }
 
+# Every file of the tree that git would keep, or, without git, every file outside the build folders; from the folder
+# above tools/, each ends with a zero.
+tree_files() (
+    cd -- "$plumb_root"
+    if command -v git >/dev/null && [[ $(git rev-parse --show-toplevel 2>/dev/null) -ef . ]]; then
+        git ls-files --cached --others --exclude-standard -z
+    else
+        find . -type d \( -name .git -o -name 'build*' -o -name __pycache__ \) -prune -o -type f -print0
+    fi
+)
+
 # build_folder PRESET: where CMakePresets.json builds it.
 build_folder() {
     case $1 in
         release) printf '%s\n' "$plumb_root/build" ;;
-        debug | asan) printf '%s\n' "$plumb_root/build-$1" ;;
-        *) die "unknown preset '$1': release, debug or asan" ;;
+        dev | debug | asan | arm64) printf '%s\n' "$plumb_root/build-$1" ;;
+        *) die "unknown preset '$1': release, dev, debug, asan or arm64" ;;
     esac
 }
 
-# build PRESET [TARGET]: configures if that was never done or the tree has moved, and builds.
+# build PRESET [TARGET]: configures if that was never done, the tree has moved or the presets have changed, and builds.
 build() {
     local preset=$1 target=${2:-all} folder
     folder="$(build_folder "$preset")"
@@ -105,8 +116,10 @@ build() {
             say "$folder was configured for another folder; starting again"
             rm -rf -- "$cache" "$folder/CMakeFiles" "$folder/build.ninja"
         fi
-        if [[ ! -f $folder/build.ninja ]]; then
+        [[ -f $folder/build.ninja ]] ||
             say "configuring and building the '$preset' preset in $folder; this takes some minutes, once"
+        # Newer than a file that is missing, too. CMake itself would not notice that the presets have changed.
+        if [[ CMakePresets.json -nt $folder/build.ninja ]]; then
             quietly cmake --preset "$preset" 9>&- || die "configuring failed"
         fi
         quietly cmake --build "$folder" --target "$target" -- --quiet 9>&- || die "the build failed"
