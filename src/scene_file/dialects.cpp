@@ -140,11 +140,7 @@ DialectEvidence find_dialect(const Element& root, const std::vector<Element>& be
     if (auto evidence = decide(marks, false)) return *std::move(evidence);
     const DialectEvidence alone = undecided(marks);
     if (alone.suspects.size() > 1 || decides_for_plumb(marks)) return alone;
-    for (const Element& other : beside)
-        for (Mark& mark : find_marks(other, true)) {
-            const auto is_known = [&](const Mark& known) { return known.name == mark.name; };
-            if (std::none_of(marks.begin(), marks.end(), is_known)) marks.push_back(std::move(mark));
-        }
+    for (const Element& other : beside) add_marks(marks, find_marks(other, true));
     auto together = decide(marks, true);
     if (!together) return alone;
     together->reason += ", counting the files beside it";

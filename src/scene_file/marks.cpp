@@ -71,6 +71,16 @@ constexpr Row rows[] = {
 // A factor of an environment's picture that is there to undo a division by 255.
 constexpr double undoing_factor = 100.0;
 
+constexpr const char* sphere_with_path_mis = "'sphere' with 'path_mis'";
+
+// A sphere is no second mark beside a sphere with path_mis.
+void drop_dependent(std::vector<Mark>& marks)
+{
+    if (std::any_of(marks.begin(), marks.end(),
+                    [](const Mark& mark) { return mark.name == sphere_with_path_mis; }))
+        std::erase_if(marks, [](const Mark& mark) { return mark.name == "'sphere'"; });
+}
+
 const Element* child_named(const Element& element, std::string_view name)
 {
     const auto found = std::find_if(element.children.begin(), element.children.end(),
@@ -85,11 +95,9 @@ public:
     std::vector<Mark> find()
     {
         visit(root_);
-        // Frequent together, in ETH's files only; but our own manual teaches both. The sphere is no second mark then.
-        if (const Element* sphere = sphere_; sphere && path_mis_) {
-            std::erase_if(marks_, [](const Mark& mark) { return mark.name == "'sphere'"; });
-            add(*sphere, "'sphere' with 'path_mis'", eth, MarkWeight::parameter);
-        }
+        // Frequent together, in ETH's files only; but our own manual teaches both.
+        if (sphere_ && path_mis_) add(*sphere_, sphere_with_path_mis, eth, MarkWeight::parameter);
+        drop_dependent(marks_);
         return std::move(marks_);
     }
 
@@ -148,6 +156,15 @@ private:
 std::vector<Mark> find_marks(const Element& root, bool beside)
 {
     return Finder(root, beside).find();
+}
+
+void add_marks(std::vector<Mark>& marks, const std::vector<Mark>& more)
+{
+    for (const Mark& mark : more) {
+        const auto is_known = [&](const Mark& known) { return known.name == mark.name; };
+        if (std::none_of(marks.begin(), marks.end(), is_known)) marks.push_back(mark);
+    }
+    drop_dependent(marks);
 }
 
 } // namespace plumb

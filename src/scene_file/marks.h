@@ -36,4 +36,7 @@ constexpr unsigned course_bit(DialectName name)
 // texts then have.
 std::vector<Mark> find_marks(const Element& root, bool beside);
 
+// Adds what is new in `more`.
+void add_marks(std::vector<Mark>& marks, const std::vector<Mark>& more);
+
 } // namespace plumb

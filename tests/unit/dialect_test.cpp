@@ -223,6 +223,9 @@ TEST_CASE("files beside a scene tell whose it is", "[unit][dialect]")
         folder.write("a_ball.xml", whole(sphere));
         CHECK(dialect("a_mis.xml").name == DialectName::plumb);
         CHECK(dialect("a_ball.xml").name == DialectName::plumb);
+        folder.write("a_direct.xml",
+                     whole(sphere, "<integrator type='direct_mis'/>")); // a sphere is no second mark
+        CHECK(dialect("a_ball.xml").name == DialectName::plumb);
         folder.write("a_mats.xml", whole(sphere, "<integrator type='path_mats'/>"));
         for (const char* name : {"a_mis.xml", "a_ball.xml", "a_mats.xml"}) {
             CHECK(dialect(name).name == DialectName::eth);
