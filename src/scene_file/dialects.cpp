@@ -44,15 +44,15 @@ std::vector<const Mark*> deciding_marks(const std::vector<Mark>& marks, DialectN
     });
     if (found.empty()) return {};
     const Mark& first = *found.front();
-    const bool is_first = first.weight == MarkWeight::parameter && only(first, course);
-    // EPFL's reading is plumb's but for its name: two names are enough to tell it, and what it shares with ETH.
-    const bool is_epfl =
-        course == DialectName::epfl && (first.weight == MarkWeight::sign || only(first, course));
-    const bool decides = (first.weight == MarkWeight::sign && (only(first, course) || is_epfl)) ||
-                         ((is_first || is_epfl) && found.size() > 1);
-    if (!decides) return {};
-    found.resize(std::min<std::size_t>(found.size(), 2));
-    return found;
+    const auto seconds = [&](const Mark* mark) {
+        return mark != &first && (first.weight == MarkWeight::parameter || mark->weight != MarkWeight::name);
+    };
+    const auto second = std::find_if(found.begin(), found.end(), seconds);
+    // What EPFL shares with ETH is read as EPFL's, where ETH has nothing of its own.
+    if (first.weight == MarkWeight::sign && (only(first, course) || course == DialectName::epfl))
+        return {&first};
+    if (first.weight == MarkWeight::name || !only(first, course) || second == found.end()) return {};
+    return {&first, *second};
 }
 
 // Whether marks speak against a course that others decide for. by_name: type names count, too.
@@ -60,7 +60,7 @@ bool is_contradicted(const std::vector<Mark>& marks, DialectName course, MarkWei
 {
     return std::any_of(marks.begin(), marks.end(), [&](const Mark& mark) {
         if (mark.courses == plumb_files) return weight != MarkWeight::sign;
-        return !allows(mark, course) && (by_name || mark.weight != MarkWeight::name);
+        return !allows(mark, course) && (by_name || mark.weight >= MarkWeight::parameter);
     });
 }
 
@@ -78,11 +78,11 @@ std::optional<DialectEvidence> decide(const std::vector<Mark>& marks, bool by_na
         DialectEvidence evidence;
         evidence.name = course;
         const auto is_more_than_a_name = [course](const Mark& mark) {
-            return mark.weight != MarkWeight::name && only(mark, course);
+            return mark.weight >= MarkWeight::parameter && only(mark, course);
         };
         evidence.has_second_mark = course == DialectName::eth || // which never has less
                                    std::count_if(marks.begin(), marks.end(), is_more_than_a_name) > 1;
-        if (deciding[0]->weight == MarkWeight::sign)
+        if (deciding.size() == 1)
             evidence.reason =
                 fmt::format("only {} files have {}", names(deciding[0]->courses), deciding[0]->text);
         else
@@ -98,9 +98,12 @@ DialectEvidence undecided(const std::vector<Mark>& marks)
 {
     DialectEvidence evidence;
     evidence.reason = "nothing in the file is peculiar to one course";
-    std::map<unsigned, std::string> text_of; // the first mark of each set of courses
+    // The first mark of each course that has its own reading.
+    std::map<unsigned, std::string> text_of;
     for (const Mark& mark : marks)
-        if (mark.weight != MarkWeight::name) text_of.emplace(mark.courses, mark.text);
+        for (const DialectName course : {DialectName::zaragoza, DialectName::mcgill, DialectName::eth})
+            if (mark.weight != MarkWeight::name && only(mark, course))
+                text_of.emplace(mark.courses, mark.text);
     if (text_of.empty()) return evidence;
     if (text_of.size() == 1) {
         const auto& [who, text] = *text_of.begin();

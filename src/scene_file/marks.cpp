@@ -59,8 +59,8 @@ constexpr Row rows[] = {
     {"texture", "checkerboard_float", "", eth, MarkWeight::name},
 
     {"test", "ttest", "", epfl | eth, MarkWeight::sign},
-    {"integrator", "path_ems", "", epfl, MarkWeight::name},
-    {"integrator", "path_mats", "", epfl | eth, MarkWeight::name},
+    {"integrator", "path_ems", "", epfl, MarkWeight::hint},
+    {"integrator", "path_mats", "", epfl | eth, MarkWeight::hint},
 
     {"sampler", "sobol", "", plumb_files, MarkWeight::sign},
     {"sampler", "stratified", "", plumb_files, MarkWeight::sign},
@@ -96,7 +96,7 @@ public:
     {
         visit(root_);
         // Frequent together, in ETH's files only; but our own manual teaches both.
-        if (sphere_ && path_mis_) add(*sphere_, sphere_with_path_mis, eth, MarkWeight::parameter);
+        if (sphere_ && path_mis_) add(*sphere_, sphere_with_path_mis, eth, MarkWeight::hint);
         drop_dependent(marks_);
         return std::move(marks_);
     }

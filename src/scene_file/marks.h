@@ -14,7 +14,8 @@ namespace plumb {
 // How much a mark says. Nearly every name that course files use is one of Plumb's own, which its manual teaches to
 // everybody; so a name alone tells nothing of who wrote a file.
 enum class MarkWeight {
-    name,      // a type: seconds other marks
+    name, // a type: seconds a parameter
+    hint, // a type that hardly anybody but a course uses, or two types together: decides with another hint
     parameter, // a parameter that one course's code reads, and Plumb's too: decides with a second mark
     sign,      // what only one course's files have: decides
 };

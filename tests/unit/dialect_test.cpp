@@ -158,7 +158,7 @@ TEST_CASE("every type of the manual, alone, is plumb's, but for three", "[unit][
         // On a sphere, as a beginner would write it.
         const std::string on_a_sphere = body + "<shape type='sphere'><emitter type='area'/></shape>";
         CHECK(find_dialect(scene(on_a_sphere + (has_integrator ? "" : path_mis))).name ==
-              (is_sign && name == "path_nee" ? DialectName::zaragoza : DialectName::plumb));
+              (is_sign ? DialectName::zaragoza : DialectName::plumb));
     }
 }
 
