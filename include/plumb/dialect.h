@@ -22,9 +22,9 @@ struct Dialect {
     bool mirrored_view = false;       // the picture is flopped left to right
     bool emitters_absorb = false;     // a path that meets an emitter ends there
     bool point_takes_power = false;   // the default unit of <emitter type="point">: power, not radiance
-    bool sun_points_to_light = false; // `direction` of directional light is where it comes from
     bool environment_flipped = false; // environment lookups run against u and v
     float environment_scale = 1.f;    // multiplies every value read from an environment image
+    bool sun_points_to_light = false; // `direction` of directional light is where it comes from
     std::string reason;               // why this dialect is in force, for the log and the EXR header
 
     static Dialect standard(DialectName name); // that course's readings, with an empty reason
