@@ -15,7 +15,6 @@ namespace plumb {
 
 enum class Verb {
     render,
-    new_scene,
     types,
     info,
     replay,
@@ -26,7 +25,8 @@ enum class Verb {
     agree,
     race,
     check,
-    batch
+    batch,
+    new_scene
 };
 
 // The command line makes no sense: main() prints the message and exits with 2.
