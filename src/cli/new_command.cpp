@@ -29,9 +29,9 @@ constexpr std::string_view first_scene =
     <!-- x goes to the right, y up, z towards you. -->
     <camera type="perspective">
         <integer name="width" value="480"/> <integer name="height" value="320"/>
-        <float name="fov" value="36"/>
+        <float name="fov" value="46"/>
         <transform name="toWorld">
-            <lookat origin="0, 2.2, 7" target="0, 0.8, 0" up="0, 1, 0"/>
+            <lookat origin="0, 2.4, 7" target="0, 0.9, 0" up="0, 1, 0"/>
         </transform>
     </camera>
 

@@ -27,7 +27,7 @@ bool allows(const Mark& mark, DialectName course)
 std::string names(unsigned who)
 {
     std::string list;
-    for (const DialectName course : courses)
+    for (const DialectName course : all_dialects)
         if ((who & course_bit(course)) != 0)
             list.append(list.empty() ? "" : " and ").append(to_string(course));
     return list;
