@@ -118,7 +118,7 @@ TEST_CASE("a ttest of emitters", "[unit][test_file]")
     };
     const std::string references = "<string name='references' value='1'/>";
     CHECK(complaint("<test type='ttest'>" + references + point + "</test>") ==
-          "distances must be given: <string name=\"distances\" value=\"...\"/>");
+          "test 'ttest' needs a parameter 'distances': <string name=\"distances\" value=\"...\"/>");
     CHECK(complaint("<test type='ttest'><string name='distances' value='1 2'/>" + references + point +
                     "</test>") == "references must hold one number for each distance, 2 in all, not 1");
     CHECK(complaint("<test type='ttest'><string name='distances' value='1'/>" + references +
