@@ -24,6 +24,7 @@ struct Dialect {
     bool point_takes_power = false;   // the default unit of <emitter type="point">: power, not radiance
     bool environment_flipped = false; // environment lookups run against u and v
     float environment_scale = 1.f;    // multiplies every value read from an environment image
+    bool sun_points_to_light = false; // `direction` of directional light is where it comes from
     std::string reason;               // why this dialect is in force, for the log and the EXR header
 
     static Dialect standard(DialectName name); // that course's readings, with an empty reason

@@ -14,10 +14,16 @@
 
 namespace plumb {
 
+// Of the scene language, for the headers of pictures. It grows when a file comes to mean something else than before:
+//     1   up to Plumb 0.1, whose headers do not have it
+//     2   `direction` of a directional light is where the light goes (but for mcgill); `delta` of a checkerboard counts
+//         rectangles
+inline constexpr int language_version = 2;
+
 // What the command line changes of a scene.
 struct LoadOptions {
     std::optional<DialectName>
-        dialect; // nothing: the file's dialect attribute, else the evidence in the file
+        dialect; // nothing: the file's dialect attribute, else the evidence in it and in the files beside it
     std::optional<bool> emitters_absorb;
     std::optional<bool> mirrored_view;
     std::optional<float> environment_scale;
@@ -45,7 +51,8 @@ struct LoadedScene {
     std::string sampler;
     std::vector<InputFile> inputs; // scene files, meshes, images
     std::string input_hash;        // of them all and of what options and dialect make of them; 32 hex digits
-    std::uint64_t texture_bytes = 0; // of the pictures in textures
+    std::vector<std::string> changed_readings; // what meant something else in version 1 of the language
+    std::uint64_t texture_bytes = 0;           // of the pictures in textures
     std::vector<Diagnostic> warnings;
     double parse_seconds = 0.0; // XML, meshes and images
     double build_seconds = 0.0; // Embree

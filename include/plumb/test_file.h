@@ -4,6 +4,7 @@
 // Reading a test file: a <test type="ttest"> or <test type="chi2test"> of the courses.
 
 #include "plumb/bsdf.h"
+#include "plumb/emitter.h"
 #include "plumb/scene_file.h"
 
 #include <vector>
@@ -17,23 +18,31 @@ struct TestedBsdf {
     std::string name; // "bsdf 'diffuse' (line 4)"
 };
 
+struct TestedEmitter {
+    std::unique_ptr<Emitter> emitter;
+    std::string name; // "emitter 'point' (line 4)"
+};
+
 struct TestedScene {
     RenderJob job;
     Dialect dialect;
     std::string name; // "scene (line 4), path_mis"
 };
 
-// A ttest holds BSDFs or scenes, a chi2test holds BSDFs.
+// A ttest holds BSDFs, emitters or scenes, a chi2test holds BSDFs.
 struct TestFile {
     TestType type = TestType::ttest;
     double significance_level = 0.01; // of the whole file
     std::uint64_t sample_count = 0;   // of each test
     std::vector<TestedBsdf> bsdfs;
+    std::vector<TestedEmitter> emitters;
     std::vector<TestedScene> scenes;
 
-    // A ttest's: a reference for each scene, or for each angle of each BSDF, BSDF by BSDF.
+    // A ttest's: a reference for each scene, or for each angle of each BSDF, BSDF by BSDF, or for each distance of each
+    // emitter, emitter by emitter.
     std::vector<double> references;
-    std::vector<double> angles; // of wi from the normal, in degrees
+    std::vector<double> angles;    // of wi from the normal, in degrees
+    std::vector<double> distances; // of the receiver from the origin, along z
 
     // A chi2test's: a grid of resolution x 2 resolution cells in cos theta and phi.
     std::size_t resolution = 0;

@@ -4,6 +4,7 @@
 
 #include "check/mesh_facts.h"
 #include "plumb/sampling.h"
+#include "plumb/tracer.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -35,6 +36,7 @@ public:
         find_facts();
         for (std::size_t i = 0; i < facts_.size(); ++i) check(scene_.objects()[i], facts_[i]);
         check_camera();
+        check_blackness();
         return std::move(doubts_);
     }
 
@@ -166,6 +168,31 @@ private:
             const MeshFacts facts = mesh_facts(*object.shape);
             if (facts.is_closed && facts.volume > 0.0) add(object.name, "the camera is inside it");
         }
+    }
+
+    // Looks at a grid of places in the picture as the integrator does.
+    void check_blackness()
+    {
+        if (scene_.emitters().empty() || !job_.integrator->needs_lamps()) return;
+        constexpr int side = 32;
+        constexpr std::uint64_t looks = 4; // at each place
+        Tracer tracer(scene_);
+        const Vec2f cell = Vec2f(job_.camera->resolution()) / static_cast<float>(side);
+        for (std::uint64_t look = 0; look < looks; ++look)
+            for (int i = 0; i < side * side; ++i) {
+                const Vec2i place(i % side, i / side);
+                sampler_->start(2, place, look);
+                const Vec2f u = sampler_->next_2d();
+                const Vec2f u_lens = sampler_->next_2d();
+                const CameraRay seen = job_.camera->sample_ray((Vec2f(place) + u) * cell, u_lens);
+                const Color light = job_.integrator->radiance(tracer, *sampler_, seen.ray) * seen.weight;
+                if (!light.is_black()) return;
+            }
+        add({}, fmt::format("though there {}, all of {} paths through the picture are black",
+                            scene_.emitters().size() == 1
+                                ? "is a light"
+                                : fmt::format("are {} lights", scene_.emitters().size()),
+                            looks * side * side));
     }
 
     const RenderJob& job_;

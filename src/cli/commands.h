@@ -10,6 +10,7 @@
 namespace plumb {
 
 int render_command(const Options& options);
+int new_command(const Options& options);
 int types_command(const Options& options);
 int info_command(const Options& options);
 int replay_command(const Options& options);

@@ -86,6 +86,7 @@ Metadata scene_header(const Options& options, const LoadedScene& scene)
         add("plumb:samplerTotal", static_cast<int>(render_samples(scene.job, options.render)));
     if (!scene.job.sampler->is_independent()) add("plumb:errorBars", "upper bounds");
     add("plumb:seed", std::to_string(options.render.seed));
+    add("plumb:language", language_version);
     add("plumb:dialect", std::string(to_string(scene.dialect.name)));
     add("plumb:dialectReason", valid_utf8(scene.dialect.reason));
     add("plumb:emitters", scene.dialect.emitters_absorb ? "absorb" : "scatter");

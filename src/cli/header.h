@@ -18,6 +18,7 @@
 //     plumb:samplesTaken      which samples the pixels have (SampleSet::text); only if not all have the same number
 //     plumb:stop              what ended the rendering before the number of samples that was asked for; only if so
 //     plumb:seed              a string, for it has 64 bits
+//     plumb:language          the version of the scene language (language_version); absent: 1
 //     plumb:dialect, plumb:dialectReason
 //     plumb:emitters          "scatter" or "absorb"
 //     plumb:mirror            "on" or "off"

@@ -12,6 +12,7 @@ std::string_view batch_manual();
 std::string_view check_manual();
 std::string_view compare_manual();
 std::string_view merge_manual();
+std::string_view new_manual();
 std::string_view race_manual();
 std::string_view rerun_manual();
 std::string_view test_manual();

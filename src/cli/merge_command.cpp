@@ -31,6 +31,17 @@ std::uint64_t wanted_samples(const StateFile& file)
     return file.state.taken.samples_per_pixel(file.state.film.window()).most;
 }
 
+// Throws Error if the part's scene might mean something else today: its header does not say what is in it.
+void check_language(const StateFile& part, const std::string& name)
+{
+    if (const int was = language_of(part.header); was != language_version)
+        throw Error(fmt::format(
+            "'{}' was made with version {} of the scene language, and this program reads version {}, "
+            "in which directional lights and checkerboards may have another meaning; merge it "
+            "with the Plumb that rendered it",
+            name, was, language_version));
+}
+
 // Throws Error if the part is not one of the same picture, or has samples that are there already.
 void check_part(const Merged& merged, const StateFile& part, const std::string& name)
 {
@@ -66,6 +77,7 @@ Merged merge_parts(const std::vector<std::string>& names)
     std::optional<Merged> merged;
     for (const std::string& name : names) {
         StateFile part = read_state(name);
+        check_language(part, name);
         const SampleSet samples = part.state.taken;
         const std::string label = header_text(part.header, "plumb:workPart");
         if (!merged) {

@@ -54,6 +54,11 @@ std::optional<int> header_integer(const Metadata& header, std::string_view name)
     return std::nullopt;
 }
 
+int language_of(const Metadata& header)
+{
+    return header_integer(header, "plumb:language").value_or(1); // whose headers do not say so
+}
+
 std::vector<std::string> input_changes(const Metadata& then, const Metadata& now)
 {
     std::map<std::string, std::string> expected = hash_of_name(header_text(then, "plumb:inputs"));
@@ -94,6 +99,8 @@ std::vector<std::string> sample_changes(const Metadata& then, const Metadata& no
     for (const auto& [name, meaning] : settings)
         if (const std::string was = value_text(then, name), is = value_text(now, name); was != is)
             changes.push_back(fmt::format("{} was {} and is {}", meaning, was, is));
+    if (const int was = language_of(then), is = language_of(now); was != is)
+        changes.push_back(fmt::format("the version of the scene language was {} and is {}", was, is));
     if (changes.empty() && value_text(then, "plumb:inputHash") != value_text(now, "plumb:inputHash"))
         changes.emplace_back("the options are not the same");
     return changes;

@@ -18,6 +18,9 @@ std::string header_text(const Metadata& header, std::string_view name);
 // The integer of that name; nothing if there is none.
 std::optional<int> header_integer(const Metadata& header, std::string_view name);
 
+// The version of the scene language that it was made with.
+int language_of(const Metadata& header);
+
 // What is different in the files that were read, by plumb:inputs, and what options and dialect made of them, by
 // plumb:inputHash: "'a.obj' has changed". Empty: nothing.
 std::vector<std::string> input_changes(const Metadata& then, const Metadata& now);

@@ -54,6 +54,11 @@ void log_summary(const Report& report, const Options& options)
                               report.noise_is_bound ? "at most " : "", noise->rmse, noise->low, noise->high));
     if (!evidence.ledger.biases.empty())
         print_log(fmt::format("biased: {}", list_text(evidence.ledger.biases)));
+    if (report.is_black && report.lights > 0 && evidence.taken.count() > 0)
+        print_log(
+            fmt::format("warning: the picture is black, though there {}; 'renderer check {}' may say why",
+                        report.lights == 1 ? "is a light" : fmt::format("are {} lights", report.lights),
+                        shell_quote(options.subject)));
     if (evidence.left_out.count == 0) return;
     const LeftOut::Sample& first = evidence.left_out.first;
     print_log(fmt::format("warning: {} samples were left out, the first is {}; to see its path:\n"

@@ -20,6 +20,7 @@ void write_dialect(JsonWriter& json, const Dialect& dialect)
     json.boolean("mirrored_view", dialect.mirrored_view);
     json.boolean("emitters_absorb", dialect.emitters_absorb);
     json.boolean("point_takes_power", dialect.point_takes_power);
+    json.boolean("sun_points_to_light", dialect.sun_points_to_light);
     json.boolean("environment_flipped", dialect.environment_flipped);
     json.number("environment_scale", static_cast<double>(dialect.environment_scale));
     json.end_object();
@@ -109,6 +110,15 @@ void write_evidence(JsonWriter& json, const Report& report)
     json.end_object();
 }
 
+bool is_black(const Film& film)
+{
+    const PixelRect& window = film.window();
+    for (int y = window.y; y < window.y + window.height; ++y)
+        for (int x = window.x; x < window.x + window.width; ++x)
+            if (film.contributing_count({x, y}) > 0) return false;
+    return true;
+}
+
 } // namespace
 
 Report make_report(const Options& options, const LoadedScene& scene, const RenderState& state,
@@ -128,6 +138,8 @@ Report make_report(const Options& options, const LoadedScene& scene, const Rende
     report.memory = scene.job.scene.memory();
     report.texture_bytes = scene.texture_bytes;
     const PixelRect& window = state.film.window();
+    report.is_black = is_black(state.film);
+    report.lights = scene.job.scene.emitters().size();
     report.film_bytes = film_bytes_per_pixel * static_cast<std::uint64_t>(window.width) *
                         static_cast<std::uint64_t>(window.height);
     report.parse_seconds = scene.parse_seconds;
@@ -169,6 +181,7 @@ std::string report_json(const Report& report)
     write_work(json, report);
     write_left_out(json, report.evidence.left_out);
     write_evidence(json, report);
+    json.boolean("black", report.is_black);
     json.integer("threads", static_cast<std::uint64_t>(report.threads));
     json.text("instruction_set", report.instruction_set);
     json.text("embree_version", report.embree_version);

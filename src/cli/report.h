@@ -26,6 +26,8 @@ struct Report {
     double total_seconds = 0.0;
     RayCounts rays;
     Evidence evidence;
+    bool is_black = false;  // no sample of any pixel saw light
+    std::size_t lights = 0; // of the scene
     int threads = 0;
     std::string instruction_set;
     std::string embree_version;

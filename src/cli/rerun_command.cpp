@@ -65,10 +65,26 @@ SampleSet samples_of(const Metadata& recipe, const PixelRect& window, const std:
     throw Error(fmt::format("the header of '{}' does not say which samples it has", image_file));
 }
 
+// Throws Error if a part of the scene means something else today than when the picture was made.
+void check_language(const Metadata& recipe, const LoadedScene& scene, const std::string& image_file)
+{
+    const int was = language_of(recipe);
+    if (was == language_version || (was == 1 && scene.changed_readings.empty())) return;
+    const std::string what =
+        scene.changed_readings.empty() ? "something in the scene" : list_text(scene.changed_readings);
+    throw Error(fmt::format(
+        "cannot render '{}' again: it was made with version {} of the scene language, in which {} "
+        "had another meaning than in version {}; render the scene anew",
+        image_file, was, what, language_version));
+}
+
 // Throws Error with every file that is not what it was.
 void check_inputs(const Metadata& recipe, const Metadata& now)
 {
     std::vector<std::string> changes = input_changes(recipe, now);
+    if (const std::string was = header_text(recipe, "plumb:dialect"), is = header_text(now, "plumb:dialect");
+        was != is)
+        changes.push_back(fmt::format("its dialect was {} and is {}", was, is));
     if (changes.empty() && header_text(recipe, "plumb:inputHash") != header_text(now, "plumb:inputHash"))
         changes.emplace_back("the dialect's readings have changed");
     if (!changes.empty()) throw Error(fmt::format("the scene is not what it was: {}", list_text(changes)));
@@ -90,6 +106,7 @@ int rerun_command(const Options& run)
     check_outputs(run.outputs, run.json);
     Options options = options_of(recipe, run);
     const LoadedScene scene = load_and_log(options);
+    check_language(recipe, scene, run.subject);
     check_inputs(recipe, scene_header(options, scene));
     options.repeat->samples = samples_of(recipe, render_window(scene.job, options.render), run.subject);
     return log_rendering(options, render_and_write(options, scene));

@@ -11,9 +11,12 @@ Runs the test files of the courses, which have <test> for their root, unchanged.
   <test type="ttest"> compares means with references by Student's t-test: of
       each <scene>, the luminance of the light that arrives at random places of
       the film (no filter); or of each <bsdf>, for each of the `angles` between
-      wi and the normal in degrees, the luminance of the weights of its samples.
+      wi and the normal in degrees, the luminance of the weights of its samples;
+      or of each <emitter> that needs no shape, for each of the `distances` d, the
+      luminance of what arrives at (0, 0, d) from it over the density of samples.
       `references` holds one number for each scene, or for each angle of each
-      bsdf, bsdf by bsdf. sampleCount (100000), significanceLevel (0.01).
+      bsdf, bsdf by bsdf, or for each distance of each emitter. sampleCount
+      (100000), significanceLevel (0.01).
   <test type="chi2test"> compares the samples of each <bsdf> with its density by
       Pearson's chi-square test on a grid of cos theta x phi, `resolution` (10)
       by twice as many cells, for testCount (5) random directions wi. Cells that

@@ -31,6 +31,18 @@ void print_list()
     }
 }
 
+// Where the example of a kind stands.
+std::string place_text(std::string_view kind)
+{
+    const std::string_view place = kind == "bsdf"      ? "inside a <shape> or <mesh>, "
+                                   : kind == "texture" ? "inside a <bsdf> or <emitter>, "
+                                   : kind == "rfilter" ? "inside the <camera>, "
+                                                       : "";
+    return fmt::format("The example stands {}in a scene that begins with <scene dialect=\"plumb\">;\n"
+                       "'renderer new FILE' writes such a scene.\n",
+                       place);
+}
+
 // The kinds can share a name; then all their manuals are printed.
 void print_manuals(const std::string& name)
 {
@@ -39,6 +51,7 @@ void print_manuals(const std::string& name)
         if (type.name != name) continue;
         print_output(fmt::format("{}{} '{}'\n\n{}", found ? "\n" : "", type.kind, type.name, type.manual));
         if (!type.manual.ends_with('\n')) print_output("\n");
+        print_output("\n" + place_text(type.kind));
         found = true;
     }
     if (found) return;

@@ -16,6 +16,8 @@ constexpr std::size_t any_number = 100000;
 constexpr VerbRow rows[] = {
     {Verb::render, "", "SCENE [-o IMAGE]... [options]", "render a picture", "scene file", 1, 1,
      render_command},
+    {Verb::new_scene, "new", "FILE", "write a small scene to begin with", "scene file", 1, 1, new_command,
+     new_manual},
     {Verb::types, "types", "[NAME]", "list all plugins, or print one's manual", "name", 0, 1, types_command},
     {Verb::info, "info", "IMAGE", "print what an image's header says", "image", 1, 1, info_command},
     {Verb::replay, "replay", "SCENE --pixel X,Y --sample I [options]", "print the path of one sample",

@@ -38,7 +38,10 @@ Dialect Dialect::standard(DialectName name)
         dialect.environment_flipped = true;
         dialect.environment_scale = 1.f / 255.f; // pixels are divided by 255, whatever their format
         break;
-    case DialectName::mcgill: dialect.emitters_absorb = true; break;
+    case DialectName::mcgill:
+        dialect.emitters_absorb = true;
+        dialect.sun_points_to_light = true;
+        break;
     }
     return dialect;
 }

@@ -31,6 +31,15 @@ Test make_ttest(const TestFile& file, std::size_t index)
     Test test;
     const double reference = file.references[index];
     test.result.reference = reference;
+    if (!file.emitters.empty()) {
+        const TestedEmitter& emitter = file.emitters[index / file.distances.size()];
+        const double distance = file.distances[index % file.distances.size()];
+        test.result.name = fmt::format("{} at a distance of {}", emitter.name, distance);
+        test.run = [&, reference, distance](const RunOptions& options) {
+            return test_emitter_mean(file, *emitter.emitter, distance, reference, options);
+        };
+        return test;
+    }
     if (file.bsdfs.empty()) {
         const TestedScene& scene = file.scenes[index];
         test.result.name = scene.name;

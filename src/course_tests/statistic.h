@@ -16,10 +16,12 @@ struct RunOptions {
     int threads = 0;
 };
 
-// The mean luminance of the weights of BSDF samples for wi at `angle` degrees, or of the light at random places of the
-// film, is `reference`.
+// The mean luminance of the weights of BSDF samples for wi at `angle` degrees, of what an emitter sends to (0, 0, distance)
+// over the density of its samples, or of the light at random places of the film, is `reference`.
 TestRun test_bsdf_mean(const TestFile& file, const Bsdf& bsdf, double angle, double reference,
                        const RunOptions& options);
+TestRun test_emitter_mean(const TestFile& file, const Emitter& emitter, double distance, double reference,
+                          const RunOptions& options);
 TestRun test_scene_mean(const TestFile& file, const RenderJob& job, double reference,
                         const RunOptions& options);
 

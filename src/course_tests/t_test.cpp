@@ -91,6 +91,20 @@ TestRun test_bsdf_mean(const TestFile& file, const Bsdf& bsdf, double angle, dou
     return judge(seen, reference, options);
 }
 
+TestRun test_emitter_mean(const TestFile& file, const Emitter& emitter, double distance, double reference,
+                          const RunOptions& options)
+{
+    const LightReceiver receiver{Vec3f(0.f, 0.f, static_cast<float>(distance)), Vec3f(0.f)};
+    const Seen seen = gather(file, options, [&] {
+        return [&](Sampler& sampler) {
+            const double u_select = sampler.next_choice();
+            const auto light = emitter.sample(receiver, u_select, sampler.next_2d(), Measure::best);
+            return light ? luminance(light->radiance) / light->pdf : 0.f;
+        };
+    });
+    return judge(seen, reference, options);
+}
+
 TestRun test_scene_mean(const TestFile& file, const RenderJob& job, double reference,
                         const RunOptions& options)
 {

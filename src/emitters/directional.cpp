@@ -3,6 +3,8 @@
 #include "interfaces/plugin.h"
 #include "plumb/emitter.h"
 
+#include <fmt/format.h>
+
 namespace plumb {
 
 /// Parallel light from infinitely far away, like the sun's.
@@ -10,11 +12,14 @@ namespace plumb {
 /// `radiance` is the irradiance on a surface that faces the light: a diffuse surface of albedo a that faces it shows
 /// a radiance of a / pi times it.
 ///
-///     direction   vector   points TOWARDS the light, any length but 0                     (required)
+/// `direction` is where the light goes, as in Mitsuba and in most forks of Nori: a sun above has a negative y. In the
+/// mcgill dialect it points the other way, towards the light.
+///
+///     direction   vector   where the light goes, any length but 0; mcgill: whence it comes   (required)
 ///     radiance    color    irradiance perpendicular to the direction, in W / m^2          (default 1)
 ///
 ///         <emitter type="directional">
-///             <vector name="direction" value="1 2 0.5"/>
+///             <vector name="direction" value="-1 -2 -0.5"/>
 ///             <color name="radiance" value="3 3 2.8"/>
 ///         </emitter>
 class DirectionalEmitter final : public Emitter {
@@ -22,11 +27,14 @@ public:
     explicit DirectionalEmitter(const Params& params) : irradiance_(params.color("radiance", Color(1.f)))
     {
         const Vec3f direction = params.vector("direction", Vec3f(0.f));
+        const bool points_to_light = params.dialect().sun_points_to_light;
         if (max_component(abs(direction)) > 0.f)
-            direction_ = normalize(direction);
+            towards_light_ = normalize(points_to_light ? direction : -direction);
         else
-            params.fail("direction", params.has("direction") ? "must not be 0: it points towards the light"
-                                                             : "must be given: it points towards the light");
+            params.fail(
+                "direction",
+                fmt::format("must {}: it {}", params.has("direction") ? "not be 0" : "be given",
+                            points_to_light ? "points towards the light" : "is where the light goes"));
     }
 
     void prepare(const SceneSphere& sphere) override
@@ -37,9 +45,9 @@ public:
     std::optional<EmitterSample> sample(const LightReceiver& receiver, double /*u_select*/,
                                         const Vec2f& /*u*/, Measure /*measure*/) const override
     {
-        if (!receiver.counts_light_from(direction_)) return std::nullopt;
+        if (!receiver.counts_light_from(towards_light_)) return std::nullopt;
         EmitterSample sample;
-        sample.wi = direction_;
+        sample.wi = towards_light_;
         sample.distance = infinity;
         sample.position = Vec3f(0.f);
         sample.radiance = irradiance_;
@@ -60,7 +68,7 @@ public:
 
 private:
     Color irradiance_;
-    Vec3f direction_{0.f, 0.f, 1.f};
+    Vec3f towards_light_{0.f, 0.f, 1.f};
     float scene_radius_ = 1.f;
 };
 

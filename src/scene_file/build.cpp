@@ -3,6 +3,7 @@
 
 #include "core/memory.h"
 #include "core/parallel.h"
+#include "scene_file/axis_camera.h"
 #include "scene_file/build_child.h"
 #include "scene_file/values.h"
 
@@ -122,7 +123,8 @@ private:
                                : ObjectReader(synthetic_element(*camera_, "rfilter", "gaussian"), context_)
                                      .build(filter_types());
 
-        ObjectReader reader(*camera_, context_, {"rfilter"});
+        const std::optional<Element> axis = axis_camera(*camera_, options_.resolution, diagnostics_);
+        ObjectReader reader(axis ? *axis : *camera_, context_, {"rfilter"});
         if (options_.resolution) {
             reader.params().add("width",
                                 integer_property(static_cast<std::uint64_t>(options_.resolution->x)));

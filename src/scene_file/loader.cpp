@@ -2,6 +2,7 @@
 #include "core/parallel.h"
 #include "plumb/hash.h"
 #include "plumb/scene_file.h"
+#include "scene_file/after_load.h"
 #include "scene_file/build.h"
 #include "scene_file/dialects.h"
 #include "scene_file/expand.h"
@@ -87,10 +88,10 @@ LoadedScene load_scene(const std::filesystem::path& path, const LoadOptions& opt
         expand(*std::move(document), {options.definitions.begin(), options.definitions.end()}, diagnostics);
 
     // The tree becomes objects.
-    const Dialect dialect = decide_dialect(
-        expansion.root,
-        {options.dialect, options.emitters_absorb, options.mirrored_view, options.environment_scale},
-        diagnostics);
+    const DialectWishes wishes{options.dialect, options.emitters_absorb, options.mirrored_view,
+                               options.environment_scale};
+    const DialectChoice choice = choose_dialect(expansion.root, wishes, diagnostics);
+    const Dialect& dialect = choice.dialect;
     LoadContext context{diagnostics, dialect, options.lenient, {}};
     SceneParts parts = build_scene(expansion.root, options, context);
     if (diagnostics.has_errors()) fail(diagnostics, expansion.files);
@@ -107,6 +108,8 @@ LoadedScene load_scene(const std::filesystem::path& path, const LoadOptions& opt
     std::optional<RenderJob> job = assemble(std::move(parts), options, context);
     std::vector<InputFile> inputs = inputs_read.get();
     if (!job) fail(diagnostics, expansion.files);
+    warn_of_open_readings(expansion.root, choice, wishes, &job->scene, diagnostics);
+    warn_of_idle_suns(expansion.root, *job, dialect, diagnostics);
     std::string hash = input_hash(inputs, dialect, options);
     return {.job = *std::move(job),
             .dialect = dialect,
@@ -114,6 +117,7 @@ LoadedScene load_scene(const std::filesystem::path& path, const LoadOptions& opt
             .sampler = std::move(sampler),
             .inputs = std::move(inputs),
             .input_hash = std::move(hash),
+            .changed_readings = readings_changed_since_1(expansion.root, dialect),
             .texture_bytes = context.texture_bytes,
             .warnings = in_file_order(diagnostics.all(), expansion.files),
             .parse_seconds = parse_seconds,

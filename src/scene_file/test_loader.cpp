@@ -8,6 +8,7 @@
 #include "scene_file/values.h"
 
 #include <algorithm>
+#include <functional>
 
 #include <fmt/format.h>
 
@@ -49,6 +50,7 @@ public:
         if (!read_type()) return std::move(test_);
         read_parameters(context);
         build_bsdfs(context);
+        build_emitters();
         build_scenes();
         if (!diagnostics_.has_errors()) check_counts();
         make_sampler(neutral);
@@ -78,7 +80,7 @@ private:
 
     void read_parameters(LoadContext& context)
     {
-        ObjectReader reader(root_, context, {"bsdf", "scene"});
+        ObjectReader reader(root_, context, {"bsdf", "emitter", "scene"});
         const Params& params = reader.params();
         test_.significance_level =
             static_cast<double>(params.number("significanceLevel", 0.01f, Range::open(0.0, 1.0)));
@@ -96,15 +98,23 @@ private:
             params.integer("sampleCount", 100000, Range::closed(2.0, most_samples)));
         params.string("references");
         test_.references = read_list("references");
-        if (first_child(root_, "bsdf")) {
-            params.string("angles");
-            test_.angles = read_list("angles");
-            for (const double angle : test_.angles)
-                if (!(angle >= 0.0 && angle <= 180.0))
-                    params.fail("angles", fmt::format("must be from 0 to 180 degrees, not {}", angle));
-        } else if (params.has("angles")) {
-            params.warn("angles", "angles are for tests of bsdfs; these are not read");
+        test_.angles = read_arguments(params, "angles", "bsdf");
+        for (const double angle : test_.angles)
+            if (!(angle >= 0.0 && angle <= 180.0))
+                params.fail("angles", fmt::format("must be from 0 to 180 degrees, not {}", angle));
+        test_.distances = read_arguments(params, "distances", "emitter");
+    }
+
+    // The places at which each child with that tag is tested.
+    std::vector<double> read_arguments(const Params& params, const char* name, std::string_view tag)
+    {
+        if (first_child(root_, tag)) {
+            params.string(name);
+            return read_list(name);
         }
+        if (params.has(name))
+            params.warn(name, fmt::format("{} are for tests of {}s; these are not read", name, tag));
+        return {};
     }
 
     void read_chi2test(const Params& params)
@@ -149,30 +159,69 @@ private:
         }
     }
 
+    // Each stands alone: a light at a point or infinitely far away.
+    void build_emitters()
+    {
+        if (!first_child(root_, "emitter")) return;
+        const Dialect dialect = choose_dialect(root_, wishes(), diagnostics_).dialect;
+        LoadContext context{diagnostics_, dialect, options_.lenient, {}};
+        for (const Element& child : root_.children) {
+            if (child.tag != "emitter") continue;
+            if (child.value("type") == "area")
+                diagnostics_.error(child.value_place(*child.attribute("type")),
+                                   "a test has no shape for an 'area' emitter; test a <scene> with it");
+            else if (auto emitter = ObjectReader(child, context).build(emitter_types())) {
+                emitter->prepare({Vec3f(0.f), 1.f});
+                test_.emitters.push_back({std::move(emitter), element_name(child, root_)});
+            }
+        }
+    }
+
+    DialectWishes wishes() const
+    {
+        return {options_.dialect, options_.emitters_absorb, options_.mirrored_view,
+                options_.environment_scale};
+    }
+
+    // One kind in a file, and of a chi2test bsdfs.
+    void check_kinds()
+    {
+        const Element* others[] = {first_child(root_, "bsdf"), first_child(root_, "emitter"),
+                                   first_child(root_, "scene")};
+        if (!is_ttest()) {
+            for (const Element* other : {others[1], others[2]})
+                if (other)
+                    diagnostics_.error(
+                        other->place(),
+                        fmt::format("a chi2test cannot contain a <{}>; it tests bsdfs", other->tag));
+            return;
+        }
+        if (std::count(std::begin(others), std::end(others), nullptr) < 2)
+            diagnostics_.error(
+                (*std::max_element(std::begin(others), std::end(others), std::less<>()))->place(),
+                "a ttest can contain bsdfs, emitters or scenes, not several of them; make files of each");
+    }
+
     void build_scenes()
     {
-        const Element* scene = first_child(root_, "scene");
-        const Element* bsdf = first_child(root_, "bsdf");
-        if (scene && !is_ttest())
-            diagnostics_.error(scene->place(), "a chi2test cannot contain a <scene>; it tests bsdfs");
-        else if (scene && bsdf)
-            diagnostics_.error(std::max(scene, bsdf)->place(),
-                               "a ttest can contain bsdfs or scenes, not both; make two files of it");
-        if (!scene) return;
+        check_kinds();
+        if (!first_child(root_, "scene")) return;
 
         // All scenes are of one course: one that does not say which is read as the evidence in the file suggests.
-        const DialectWishes wishes{options_.dialect, options_.emitters_absorb, options_.mirrored_view,
-                                   options_.environment_scale};
         const auto undecided =
             std::find_if(root_.children.begin(), root_.children.end(), [](const Element& child) {
                 return child.tag == "scene" && !child.attribute("dialect");
             });
-        Dialect common;
-        if (undecided != root_.children.end()) common = decide_dialect(root_, wishes, diagnostics_);
+        DialectChoice common;
+        if (undecided != root_.children.end()) {
+            common = choose_dialect(root_, wishes(), diagnostics_);
+            warn_of_open_readings(root_, common, wishes(), nullptr, diagnostics_);
+        }
         for (const Element& child : root_.children)
             if (child.tag == "scene")
-                build_scene_of_test(
-                    child, child.attribute("dialect") ? decide_dialect(child, wishes, diagnostics_) : common);
+                build_scene_of_test(child, child.attribute("dialect")
+                                               ? choose_dialect(child, wishes(), diagnostics_).dialect
+                                               : common.dialect);
     }
 
     void build_scene_of_test(const Element& element, const Dialect& dialect)
@@ -189,9 +238,10 @@ private:
 
     void check_counts()
     {
-        if (test_.bsdfs.empty() && test_.scenes.empty()) {
-            diagnostics_.error(root_.place(), is_ttest() ? "the test has neither a <bsdf> nor a <scene>"
-                                                         : "the test has no <bsdf>");
+        if (test_.bsdfs.empty() && test_.emitters.empty() && test_.scenes.empty()) {
+            diagnostics_.error(root_.place(),
+                               is_ttest() ? "the test has neither a <bsdf>, an <emitter> nor a <scene>"
+                                          : "the test has no <bsdf>");
             return;
         }
         if (is_ttest()) check_references();
@@ -202,14 +252,17 @@ private:
 
     void check_references()
     {
-        const std::size_t bsdfs = test_.bsdfs.size(), angles = test_.angles.size();
-        const std::size_t expected = bsdfs > 0 ? bsdfs * angles : test_.scenes.size();
+        const bool of_emitters = !test_.emitters.empty();
+        const std::size_t objects = of_emitters ? test_.emitters.size() : test_.bsdfs.size();
+        const std::size_t places = of_emitters ? test_.distances.size() : test_.angles.size();
+        const char* const place = of_emitters ? "distance" : "angle";
+        const std::size_t expected = objects > 0 ? objects * places : test_.scenes.size();
         if (test_.references.size() == expected) return;
         const std::string wanted =
-            bsdfs > 1   ? fmt::format("{} numbers, one for each of {} angles of each of {} bsdfs", expected,
-                                      angles, bsdfs)
-            : bsdfs > 0 ? fmt::format("one number for each angle, {} in all", angles)
-                        : fmt::format("one number for each scene, {} in all", expected);
+            objects > 1 ? fmt::format("{} numbers, one for each of {} {}s of each of {} {}", expected, places,
+                                      place, objects, of_emitters ? "emitters" : "bsdfs")
+            : objects > 0 ? fmt::format("one number for each {}, {} in all", place, places)
+                          : fmt::format("one number for each scene, {} in all", expected);
         for (const Element& child : root_.children)
             if (child.value("name") == "references" && child.attribute("value"))
                 diagnostics_.error(

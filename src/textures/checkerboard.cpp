@@ -10,13 +10,13 @@ namespace plumb {
 
 /// Rectangles of a given size in two alternating values: colours, or numbers in `checkerboard_float`.
 ///
-/// With i = floor((u - delta.x) / scale.x) and j = floor((v - delta.y) / scale.y), the texture is `value1` where i + j
+/// With i = floor(u / scale.x - delta.x) and j = floor(v / scale.y - delta.y), the texture is `value1` where i + j
 /// is even and `value2` elsewhere.
 ///
-///     value1   color or float   the value of the rectangle that begins at uv = delta   (default 0)
+///     value1   color or float   the value of the rectangle that begins at uv = scale delta   (default 0)
 ///     value2   color or float   the value of the rectangles beside it   (default 1)
 ///     scale    vector of 2      the size of a rectangle in uv   (default 1, 1)
-///     delta    point of 2       a corner of a rectangle, in uv   (default 0, 0)
+///     delta    point of 2       how far the rectangles are shifted, in rectangles   (default 0, 0)
 ///
 /// For example:
 ///
@@ -46,8 +46,8 @@ public:
 
     Color mean() const override
     {
-        const Vec2f begin = -delta_ / scale_;
-        const Vec2f end = (Vec2f(1.f) - delta_) / scale_;
+        const Vec2f begin = -delta_;
+        const Vec2f end = Vec2f(1.f) / scale_ - delta_;
         return colors_.mean(begin.x, end.x, begin.y, end.y);
     }
 
@@ -57,7 +57,7 @@ public:
 private:
     Color color_at(const Vec2f& uv) const override
     {
-        return colors_.at((uv.x - delta_.x) / scale_.x, (uv.y - delta_.y) / scale_.y);
+        return colors_.at(uv.x / scale_.x - delta_.x, uv.y / scale_.y - delta_.y);
     }
 
     TwoColors colors_;

@@ -34,12 +34,15 @@ std::string scene(const std::string& more, const std::string& integrator = "path
 }
 
 const std::string sun =
-    R"(<emitter type="directional"><vector name="direction" value="0,-1,0"/><color name="radiance" value="1,1,1"/></emitter>)";
+    R"(<emitter type="directional"><vector name="direction" value="0,-1,1"/><color name="radiance" value="1,1,1"/></emitter>)";
 
 std::string mesh(const std::string& inner)
 {
     return R"(<mesh type="obj"><string name="filename" value="mesh.obj"/>)" + inner + "</mesh>";
 }
+
+// Of scenes with one light.
+const std::string black = "though there is a light, all of 4096 paths through the picture are black\n";
 
 const std::string glass = R"(<bsdf type="dielectric"/>)";
 const std::string lamp = R"(<emitter type="area"><color name="radiance" value="1,1,1"/></emitter>)";
@@ -98,7 +101,8 @@ TEST_CASE("glass that is open or turned inside out is doubtful", "[cli][check]")
 
 TEST_CASE("lamps that light nothing are doubtful", "[cli][check]")
 {
-    CHECK(doubts(mesh(lamp), cube(true)) == "mesh 'obj' (a.xml:4): it is closed and shines inwards only\n");
+    CHECK(doubts(mesh(lamp), cube(true)) ==
+          "mesh 'obj' (a.xml:4): it is closed and shines inwards only\n" + black);
     CHECK_THAT(
         doubts(sun + R"(<shape type="rectangle"><vector name="normal" value="0,1,0"/>
         <point name="center" value="0,-0.0005,0"/>)" +
@@ -117,7 +121,7 @@ TEST_CASE("lamps that light nothing are doubtful", "[cli][check]")
 TEST_CASE("a camera inside a thing is doubtful, and so is a warning", "[cli][check]")
 {
     CHECK(doubts(sun + R"(<shape type="sphere"><float name="radius" value="50"/></shape>)") ==
-          "shape 'sphere' (a.xml:4): the camera is inside it\n");
+          "shape 'sphere' (a.xml:4): the camera is inside it\n" + black);
 
     const SceneFolder folder;
     folder.write("a.xml", scene(sun + mesh("")));
@@ -135,4 +139,57 @@ TEST_CASE("check tells errors as rendering does", "[cli][check]")
     CHECK(run.exit_code == 1);
     CHECK_THAT(run.err,
                ContainsSubstring("bad.xml:4:14: error: unknown shape 'spere'; did you mean 'sphere'?"));
+}
+
+TEST_CASE("a sun that lights nothing is warned of, and a black picture doubted", "[cli][check]")
+{
+    const std::string floor =
+        R"(<shape type="rectangle"><vector name="normal" value="0,1,0"/><float name="width" value="9"/>
+        <float name="height" value="9"/><point name="center" value="0,-1,0"/></shape>)";
+    const auto sun_along = [](const std::string& direction) {
+        return R"(<emitter type="directional"><vector name="direction" value=")" + direction +
+               R"("/></emitter>)";
+    };
+    const TempFolder folder;
+    const auto check = [&](const std::string& body) {
+        folder.write("a.xml", scene(body));
+        return run_renderer({"check", "a.xml"}, folder.path());
+    };
+    CHECK(check(floor + sun_along("0,-1,0.2")).exit_code == 0);
+
+    const RunResult idle = check(floor + sun_along("0,1,0"));
+    CHECK(idle.exit_code == 3);
+    CHECK_THAT(
+        idle.err,
+        ContainsSubstring("this light meets the front of no surface, and lights nothing: it goes along (0, "
+                          "1, 0), for 'direction' is where it goes"));
+    CHECK_THAT(idle.out,
+               ContainsSubstring("though there is a light, all of 4096 paths through the picture are black"));
+    const RunResult rendered = run_renderer({"a.xml", "-o", "a.exr", "--spp", "1"}, folder.path());
+    CHECK(rendered.exit_code == 0);
+    CHECK_THAT(rendered.err, ContainsSubstring("warning: this light meets the front of no surface") &&
+                                 ContainsSubstring("warning: the picture is black, though there is a light; "
+                                                   "'renderer check a.xml' may say why"));
+    // For mcgill it comes from there.
+    CHECK(run_renderer({"check", "a.xml", "--dialect", "mcgill"}, folder.path()).exit_code == 0);
+
+    // A roof between the sun and everything else.
+    const std::string roof =
+        R"(<shape type="rectangle"><vector name="normal" value="0,-1,0"/><float name="width" value="90"/>
+        <float name="height" value="90"/><point name="center" value="0,5,0"/></shape>)";
+    CHECK_THAT(check(floor + roof + sun_along("0,-1,0")).err, ContainsSubstring("lights nothing"));
+    // One of two suns, by its place.
+    const RunResult two = check(floor + sun_along("0,-1,0.1") + "\n" + sun_along("0,1,0"));
+    CHECK_THAT(two.err, ContainsSubstring("a.xml:6:1: warning: this light"));
+    CHECK(two.err.find("a.xml:5:") == std::string::npos);
+    // Integrators that look at no lamp.
+    folder.write("a.xml", scene(sun_along("0,1,0"), "normals"));
+    CHECK(run_renderer({"check", "a.xml"}, folder.path()).exit_code == 0);
+    // Lamps behind the camera's back wall: nothing is lit.
+    const RunResult away =
+        check(R"(<emitter type="pointlight"><point name="position" value="0,0,-90"/></emitter>)" + floor);
+    CHECK(away.exit_code == 0); // the floor sees it
+    CHECK_THAT(
+        check(R"(<emitter type="pointlight"><point name="position" value="0,-9,0"/></emitter>)" + floor).out,
+        ContainsSubstring("though there is a light"));
 }

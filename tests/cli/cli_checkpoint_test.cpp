@@ -5,6 +5,7 @@
 #include "cli/picture_header.h"
 #include "cli/small_scene.h"
 #include "plumb/image.h"
+#include "plumb/state_file.h"
 #include "support/catch.h"
 
 #include <chrono>
@@ -268,4 +269,24 @@ TEST_CASE("what does not go with checkpoints and parts", "[cli][merge]")
           "error: 'p.exr' is to be written twice\n");
     CHECK(usage({"merge", "p.exr"}) ==
           "error: merge needs -o,--output IMAGE, or --checkpoint FILE for parts that are to be merged on\n");
+}
+
+TEST_CASE("work from before the scene language changed is neither gone on from nor merged", "[cli][merge]")
+{
+    const SceneFolder folder;
+    REQUIRE(folder.run({"scene.xml", "-o", "a.exr", "--checkpoint", "c.exr", "--quiet"}).exit_code == 0);
+    StateFile file = read_state(folder / "c.exr");
+    std::erase_if(file.header, [](const auto& entry) { return entry.first == "plumb:language"; });
+    const std::vector<unsigned char> bytes = encode_state(file.state, file.resolution, file.header);
+    folder.write("c.exr", {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    const RunResult resumed =
+        folder.run({"scene.xml", "-o", "b.exr", "--checkpoint", "c.exr", "--resume", "--quiet"});
+    CHECK(resumed.exit_code == 1);
+    CHECK(resumed.err ==
+          "error: cannot go on from 'c.exr': the version of the scene language was 1 and is 2\n");
+    const RunResult merged = folder.run({"merge", "c.exr", "-o", "b.exr", "--quiet"});
+    CHECK(merged.exit_code == 1);
+    CHECK_THAT(merged.err, ContainsSubstring("'c.exr' was made with version 1 of the scene language") &&
+                               ContainsSubstring("directional lights"));
+    CHECK_FALSE(std::filesystem::exists(folder / "b.exr"));
 }

@@ -5,9 +5,11 @@
 #include "cli/picture_header.h"
 #include "cli/small_scene.h"
 #include "cli/text.h"
+#include "plumb/scene_file.h"
 #include "support/catch.h"
 
 #include <cmath>
+#include <fmt/format.h>
 
 using namespace plumb;
 
@@ -153,4 +155,43 @@ TEST_CASE("rerun takes pictures of ours, and keeps them", "[cli][rerun]")
     CHECK(read_bytes(folder / "a.exr") == bytes);
     CHECK(folder.run({"rerun", "a.exr"}).exit_code == 2);
     CHECK(folder.run({"rerun", "none.exr", "-o", "b.exr"}).exit_code == 1);
+}
+
+TEST_CASE("a picture that was made when the scene language meant something else is not made again",
+          "[cli][rerun]")
+{
+    const SceneFolder folder;
+    const auto picture_of = [&](const std::string& more, const Names& options = {}) {
+        std::string scene = small_scene();
+        folder.write("scene.xml", scene.insert(scene.find("</scene>"), more));
+        Names words = {"scene.xml", "-o", "new.exr", "--spp", "1", "--quiet"};
+        words.insert(words.end(), options.begin(), options.end());
+        REQUIRE(folder.run(words).exit_code == 0);
+        // Plumb 0.1 wrote no version of the language.
+        Image image = read_image(folder / "new.exr", false);
+        CHECK(integer(header(folder / "new.exr"), "plumb:language") == language_version);
+        std::erase_if(image.metadata, [](const auto& entry) { return entry.first == "plumb:language"; });
+        write_image(folder / "old.exr", image);
+        CHECK(folder.run({"rerun", "new.exr", "-o", "again.exr", "--quiet"}).exit_code == 0);
+        return folder.run({"rerun", "old.exr", "-o", "again.exr", "--quiet"});
+    };
+    const std::string sun =
+        R"(<emitter type="directional"><vector name="direction" value="0,-1,0"/></emitter>)";
+    const RunResult refused = picture_of(sun);
+    CHECK(refused.exit_code == 1);
+    CHECK(refused.err ==
+          "error: cannot render 'old.exr' again: it was made with version 1 of the scene language, in which "
+          "the "
+          "direction of a directional light had another meaning than in version 2; render the scene anew\n");
+    const auto checks = [](const char* delta) {
+        return fmt::format(
+            R"(<shape type="sphere"><bsdf type="diffuse"><texture type="checkerboard_color" name="albedo">)"
+            R"(<point name="delta" value="{}"/></texture></bsdf></shape>)",
+            delta);
+    };
+    CHECK_THAT(picture_of(checks("0.5,0")).err, ContainsSubstring("the delta of a checkerboard"));
+    // What means the same can be made again.
+    CHECK(picture_of(checks("0,0")).exit_code == 0);
+    CHECK(picture_of(sun, {"--dialect", "mcgill"}).exit_code == 0);
+    CHECK(picture_of("").exit_code == 0);
 }

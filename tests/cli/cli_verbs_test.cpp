@@ -197,3 +197,42 @@ TEST_CASE("--json says what memory is for", "[cli][json]")
     CHECK(number("meshes") + number("acceleration_while_built") + number("film") <
           number("peak_memory_bytes"));
 }
+
+TEST_CASE("new writes a scene that renders as it is", "[cli][new]")
+{
+    const TempFolder folder;
+    const RunResult written = run_renderer({"new", "my scene.xml"}, folder.path());
+    CHECK(written.exit_code == 0);
+    CHECK(written.out.empty());
+    CHECK(written.err == "'my scene.xml': written; to see it:\n    renderer 'my scene.xml'\n");
+    const std::string text = read_bytes(folder / "my scene.xml");
+    CHECK_THAT(text, ContainsSubstring("<scene dialect=\"plumb\">") && ContainsSubstring("<!--"));
+    const RunResult checked = run_renderer({"check", "my scene.xml"}, folder.path());
+    CHECK(checked.exit_code == 0);
+    CHECK_THAT(checked.out, ContainsSubstring("nothing is wrong or doubtful"));
+    const RunResult rendered =
+        run_renderer({"my scene.xml", "-o", "a.exr", "--spp", "2", "--size", "48x32"}, folder.path());
+    CHECK(rendered.exit_code == 0);
+    CHECK(rendered.err.find("warning") == std::string::npos);
+
+    // What is there stays there, file or folder or link.
+    const RunResult again = run_renderer({"new", "my scene.xml"}, folder.path());
+    CHECK(again.exit_code == 1);
+    CHECK(again.err == "error: 'my scene.xml' is there already, and is left as it is; name another file\n");
+    CHECK(read_bytes(folder / "my scene.xml") == text);
+    std::filesystem::create_symlink("elsewhere", folder / "link.xml");
+    CHECK(run_renderer({"new", "link.xml"}, folder.path()).exit_code == 1);
+    CHECK_FALSE(std::filesystem::exists(folder / "elsewhere"));
+    CHECK(run_renderer({"new", "none/a.xml"}, folder.path()).err ==
+          "error: cannot write 'none/a.xml': No such file or directory\n");
+    CHECK(run_renderer({"new"}, folder.path()).exit_code == 2);
+}
+
+TEST_CASE("types says what scene an example is part of", "[cli][types]")
+{
+    for (const TypeInfo& type : known_types()) {
+        const RunResult result = run_renderer({"types", std::string(type.name)}, PLUMB_SOURCE_DIR);
+        CHECK_THAT(result.out, ContainsSubstring("in a scene that begins with <scene dialect=\"plumb\">;\n"
+                                                 "'renderer new FILE' writes such a scene."));
+    }
+}

@@ -25,7 +25,7 @@ constexpr const char* lamps = R"(
     </mesh>
     <mesh type="sphere"> <point name="center" value="0,-20,0"/> <float name="radius" value="19"/> </mesh>
     <emitter type="pointlight"><point name="position" value="0,1,2"/><color name="radiance" value="0.5,0.5,0.5"/></emitter>
-    <emitter type="directional"><vector name="direction" value="0,1,0"/><color name="radiance" value="0.01,0,0"/></emitter>
+    <emitter type="directional"><vector name="direction" value="0,-1,0"/><color name="radiance" value="0.01,0,0"/></emitter>
     <emitter type="environment"><color name="radiance" value="0.001,0.001,0.002"/></emitter>
 </scene>)";
 

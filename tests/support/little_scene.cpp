@@ -103,7 +103,7 @@ LittleScene& LittleScene::point_light(const Vec3f& position, const Color& intens
 LittleScene& LittleScene::directional_light(const Vec3f& towards_light, const Color& radiance)
 {
     lights_.push_back(ParamsBuilder("emitter", "directional")
-                          .vector("direction", towards_light)
+                          .vector("direction", -towards_light)
                           .color("radiance", radiance)
                           .build<DirectionalEmitter, Emitter>());
     return *this;

@@ -79,7 +79,7 @@ TEST_CASE("the scenes of a ttest are read in one dialect", "[unit][test_file][di
             .scenes.front()
             .dialect;
     };
-    CHECK(dialect("", "direct_mis").name == DialectName::epfl); // a scene alone would be Zaragoza's
+    CHECK(dialect("", "direct_mis").name == DialectName::epfl); // a scene alone would be plumb's
     CHECK_FALSE(dialect("", "direct_mis").emitters_absorb);
     CHECK(dialect(" dialect='mcgill'", "path_ems").name == DialectName::mcgill);
 
@@ -87,14 +87,45 @@ TEST_CASE("the scenes of a ttest are read in one dialect", "[unit][test_file][di
     const TestFile file = load_text(
         "<test type='ttest'><string name='references' value='0 0 0'/>"
         "<scene><integrator type='path_mis'/><camera type='perspective'/></scene>"
-        "<scene><integrator type='av'><float name='length' value='1'/></integrator>"
-        "<camera type='perspective'/></scene>"
+        "<scene><integrator type='path_mis'/><camera type='perspective'/><emitter type='point'>"
+        "<color name='power' value='1 1 1'/></emitter></scene>"
         "<scene dialect='zaragoza'><integrator type='path_mis'/><camera type='perspective'/></scene></test>");
     REQUIRE(file.scenes.size() == 3);
     CHECK(file.scenes[0].dialect.name == DialectName::eth);
     CHECK(file.scenes[1].dialect.name == DialectName::eth);
     CHECK(file.scenes[2].dialect.name == DialectName::zaragoza);
     CHECK(file.warnings.empty());
+}
+
+TEST_CASE("a ttest of emitters", "[unit][test_file]")
+{
+    const std::string point = "<emitter type='point'><color name='power' value='1 1 1'/></emitter>";
+    const TestFile file = load_text("<test type='ttest'><string name='distances' value='0.5,2'/>"
+                                    "<string name='references' value='1 2, 3 4'/>" +
+                                    point + "<emitter type='environment'/></test>");
+    REQUIRE(file.emitters.size() == 2);
+    CHECK(file.emitters[0].name == "emitter 'point' (line 1)");
+    CHECK(file.distances == std::vector{0.5, 2.0});
+    CHECK(file.test_count() == 4);
+    CHECK(file.warnings.empty());
+    const auto complaint = [](const std::string& text) {
+        try {
+            load_text(text);
+            return std::string();
+        } catch (const SceneError& error) {
+            return error.diagnostics().front().message;
+        }
+    };
+    const std::string references = "<string name='references' value='1'/>";
+    CHECK(complaint("<test type='ttest'>" + references + point + "</test>") ==
+          "test 'ttest' needs a parameter 'distances': <string name=\"distances\" value=\"...\"/>");
+    CHECK(complaint("<test type='ttest'><string name='distances' value='1 2'/>" + references + point +
+                    "</test>") == "references must hold one number for each distance, 2 in all, not 1");
+    CHECK(complaint("<test type='ttest'><string name='distances' value='1'/>" + references +
+                    "<emitter type='area'/></test>") ==
+          "a test has no shape for an 'area' emitter; test a <scene> with it");
+    CHECK(complaint("<test type='chi2test'>" + point + "</test>") ==
+          "a chi2test cannot contain a <emitter>; it tests bsdfs");
 }
 
 TEST_CASE("the scenes of a ttest include files and name values", "[unit][test_file]")

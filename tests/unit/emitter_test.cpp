@@ -45,16 +45,29 @@ TEST_CASE("light of point and directional emitters arrives in its closed form", 
     CHECK(by_power->power() == Approx(4.0 * pi_d).epsilon(1e-5));
 
     const auto sun = ParamsBuilder("emitter", "directional")
-                         .vector("direction", Vec3f(0, 3, 4))
+                         .vector("direction", Vec3f(0, -3, -4))
                          .color("radiance", Color(7.f))
                          .build<DirectionalEmitter, Emitter>();
     sun->prepare({Vec3f(0.f), 10.f});
     const EmitterSample sunlight = radiance(*sun, Vec3f(1, 2, 3));
-    CHECK(length(sunlight.wi - Vec3f(0, 0.6f, 0.8f)) < 1e-6f); // towards the light
+    CHECK(length(sunlight.wi - Vec3f(0, 0.6f, 0.8f)) < 1e-6f); // against the direction
     CHECK(sunlight.radiance == Color(7.f));
     CHECK(sunlight.distance == infinity);
     CHECK((sun->is_delta() && sun->is_infinite()));
     CHECK(sun->power() == Approx(7.0 * pi_d * 100.0).epsilon(1e-5));
+}
+
+TEST_CASE("the direction of directional light is where it goes, but for mcgill", "[unit][emitter]")
+{
+    for (const DialectName name : all_dialects) {
+        const auto sun = ParamsBuilder("emitter", "directional")
+                             .vector("direction", Vec3f(0, -2, 0))
+                             .dialect(Dialect::standard(name))
+                             .build<DirectionalEmitter, Emitter>();
+        const auto light = sun->sample({}, 0.5, Vec2f(0.5f), Measure::best);
+        REQUIRE(light);
+        CHECK(light->wi == Vec3f(0, name == DialectName::mcgill ? -1 : 1, 0));
+    }
 }
 
 TEST_CASE("the power of area emitters is what they send out", "[unit][emitter]")

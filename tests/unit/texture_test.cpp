@@ -142,8 +142,9 @@ TEST_CASE("checkerboard has cells of the given size and offset", "[unit][texture
                              .build<Checkerboard, Texture>();
     for (int j = -5; j < 5; ++j)
         for (int i = -5; i < 5; ++i) {
-            const Vec2f uv(0.5f + 0.2f * (static_cast<float>(i) + 0.5f),
-                           -0.1f + 0.35f * (static_cast<float>(j) + 0.5f));
+            // Cells are counted from delta, in cells.
+            const Vec2f uv(0.2f * (0.5f + static_cast<float>(i) + 0.5f),
+                           0.35f * (-0.1f + static_cast<float>(j) + 0.5f));
             CHECK(texture->color(uv) == ((i + j) % 2 == 0 ? first : second));
         }
     check_statistics(*texture, 2e-3f); // the grid does not meet the cells' borders

@@ -18,7 +18,7 @@ class Color:
 
 @dataclass
 class Checkerboard:
-    """first where floor((u - du) / su) + floor((v - dv) / sv) is even, else second."""
+    """first where floor(u / su - du) + floor(v / sv - dv) is even, else second."""
 
     first: tuple  # a colour, or a number
     second: tuple

@@ -39,7 +39,7 @@ def texture(value):
     if isinstance(value, Checkerboard):
         # Mitsuba's has 2 x 2 squares in the unit square, color0 at the corner.
         scale = [0.5 / value.scale[0], 0.5 / value.scale[1], 1.0]
-        offset = [-value.delta[0], -value.delta[1], 0.0]
+        offset = [-0.5 * value.delta[0], -0.5 * value.delta[1], 0.0]
         ends = [value.first, value.second]
         # Mitsuba 3.9.1's checkerboard begins with color0 where it is asked for colours, with color1 where for a number.
         ends = [raw(x) for x in ends] if isinstance(ends[0], tuple) else [float(x) for x in reversed(ends)]
@@ -47,7 +47,7 @@ def texture(value):
             "type": "checkerboard",
             "color0": ends[0],
             "color1": ends[1],
-            "to_uv": Transform().scale(scale) @ Transform().translate(offset),
+            "to_uv": Transform().translate(offset) @ Transform().scale(scale),
         }
     if isinstance(value, Picture):
         # Mitsuba's first row is at v = 0.

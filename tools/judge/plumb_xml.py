@@ -106,7 +106,7 @@ def write_light(out, light):
     if light.kind == "point":
         out.leaf("point", name="position", value=numbers(light.position))
     if light.kind == "directional":
-        out.leaf("vector", name="direction", value=numbers(light.towards))
+        out.leaf("vector", name="direction", value=numbers(tuple(-x for x in light.towards)))
     if light.picture:
         out.leaf("string", name="filename", value=light.picture.name + ".exr")
     out.leaf("color", name="power" if light.as_power else "radiance", value=numbers(light.color))

@@ -106,7 +106,7 @@ add("lights-glossy", "Two lamps of different sizes on a glossy floor",
     [floor(microfacet(0.1, (0.1, 0.1, 0.1))), sphere_lamp((3.0, 6.0, 3.0)), rectangle_lamp((5.0, 1.0, 1.0))],
     [painted_sky((0.1, 0.1, 0.1))])
 add("lights-checkered", "A lamp with a checkered radiance",
-    [floor(), ball(RED), rectangle_lamp(Checkerboard((8.0, 1.0, 1.0), (0.0, 4.0, 9.0), (0.25, 0.5), (0.1, 0.2)))])
+    [floor(), ball(RED), rectangle_lamp(Checkerboard((8.0, 1.0, 1.0), (0.0, 4.0, 9.0), (0.25, 0.5), (0.4, 0.4)))])
 add("lights-facing", "The camera looks at lamps from before and behind, and at a scaled one",
     [floor(), Shape("sphere", RED, center=(-1.0, 1.0, 0.0), radius=0.7, radiance=(0.5, 0.8, 0.2), radiance_scale=2.5),
      Shape("rectangle", RED, center=(1.0, 1.0, 0.0), width=1.2, height=1.2, normal=(0.3, 0.2, 1.0), radiance=(0.2, 0.6, 0.9)),
@@ -114,7 +114,7 @@ add("lights-facing", "The camera looks at lamps from before and behind, and at a
 
 # --- Textures -----------------------------------------------------------------------------------------------------
 
-CHECKS = Checkerboard((0.9, 0.8, 0.7), (0.1, 0.2, 0.3), (0.125, 0.25), (0.05, 0.1))
+CHECKS = Checkerboard((0.9, 0.8, 0.7), (0.1, 0.2, 0.3), (0.125, 0.25), (0.4, 0.4))
 add("texture-checkerboard", "Checkerboard on a rectangle", [floor(diffuse(CHECKS)), ball(RED)], [sky(1.0, 1.0, 1.0)])
 add("texture-mesh", "Checkerboard on a mesh with its own coordinates",
     [floor(), Shape("mesh", diffuse(CHECKS), mesh=sheet())], [point_light()])

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+#include "cli/commands.h"
+#include "cli/console.h"
+#include "cli/exit_codes.h"
+#include "cli/manuals.h"
+#include "cli/text.h"
+#include "plumb/error.h"
+
+#include <cerrno>
+#include <cstdio>
+#include <fmt/format.h>
+#include <memory>
+#include <system_error>
+
+namespace plumb {
+
+namespace {
+
+constexpr std::string_view first_scene =
+    R"(<!-- Render it: renderer FILE. What there is beside what you see here: renderer types. -->
+
+<!-- The scene language has dialects, for the courses that use it: "plumb" is the one of the manual. -->
+<scene dialect="plumb">
+
+    <!-- How light is found, and how many paths each pixel gets: more is less noise. -->
+    <integrator type="path_mis"/>
+    <sampler type="sobol"> <integer name="sampleCount" value="64"/> </sampler>
+
+    <!-- x goes to the right, y up, z towards you. -->
+    <camera type="perspective">
+        <integer name="width" value="480"/> <integer name="height" value="320"/>
+        <float name="fov" value="46"/>
+        <transform name="toWorld">
+            <lookat origin="0, 2.4, 7" target="0, 0.9, 0" up="0, 1, 0"/>
+        </transform>
+    </camera>
+
+    <!-- The floor: squares of 1 by 1. -->
+    <shape type="rectangle">
+        <point name="center" value="0, 0, 0"/> <vector name="normal" value="0, 1, 0"/>
+        <float name="width" value="24"/> <float name="height" value="24"/>
+        <bsdf type="diffuse">
+            <texture type="checkerboard_color" name="albedo">
+                <color name="value1" value="0.65 0.62 0.58"/> <color name="value2" value="0.28 0.30 0.34"/>
+                <vector name="scale" value="0.041667, 0.041667"/>
+            </texture>
+        </bsdf>
+    </shape>
+
+    <!-- Gold, glass and plastic. -->
+    <shape type="sphere">
+        <point name="center" value="-1.9, 0.9, -0.4"/> <float name="radius" value="0.9"/>
+        <bsdf type="roughconductor">
+            <color name="R0" value="1.0 0.78 0.34"/> <float name="alpha" value="0.15"/>
+        </bsdf>
+    </shape>
+    <shape type="sphere">
+        <point name="center" value="0.1, 0.8, 0.7"/> <float name="radius" value="0.8"/>
+        <bsdf type="dielectric"/>
+    </shape>
+    <shape type="sphere">
+        <point name="center" value="1.9, 0.9, -0.6"/> <float name="radius" value="0.9"/>
+        <bsdf type="roughsubstrate">
+            <color name="kd" value="0.55 0.08 0.06"/> <float name="alpha" value="0.08"/>
+        </bsdf>
+    </shape>
+
+    <!-- A lamp above, which shines downwards: towards its normal. -->
+    <shape type="rectangle">
+        <point name="center" value="-1.5, 5, 2"/> <vector name="normal" value="0.2, -1, -0.3"/>
+        <float name="width" value="2.5"/> <float name="height" value="2.5"/>
+        <emitter type="area"> <color name="radiance" value="11 10 8.5"/> </emitter>
+    </shape>
+
+    <!-- And the sky. -->
+    <emitter type="environment"> <color name="radiance" value="0.25 0.32 0.42"/> </emitter>
+</scene>
+)";
+
+std::string reason_of(int error)
+{
+    return std::generic_category().message(error);
+}
+
+// A file that is there already stays as it is.
+void write_new(const std::string& file, std::string_view text)
+{
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> out(std::fopen(file.c_str(), "wxb"), std::fclose);
+    if (!out && errno == EEXIST)
+        throw Error(fmt::format("'{}' is there already, and is left as it is; name another file", file));
+    if (!out) throw Error(fmt::format("cannot write '{}': {}", file, reason_of(errno)));
+    const bool written = std::fwrite(text.data(), 1, text.size(), out.get()) == text.size();
+    if (!written || std::fflush(out.get()) != 0) {
+        const int error = errno;
+        std::remove(file.c_str());
+        throw Error(fmt::format("cannot write '{}': {}", file, reason_of(error)));
+    }
+}
+
+} // namespace
+
+std::string_view new_manual()
+{
+    return "Writes a small scene with comments, to begin with. A file that is there already is left as it "
+           "is.\n";
+}
+
+int new_command(const Options& options)
+{
+    write_new(options.subject, first_scene);
+    if (!options.quiet)
+        print_log(fmt::format("{0}: written; to see it:\n    renderer {0}", shell_quote(options.subject)));
+    return exit_code::done;
+}
+
+} // namespace plumb
