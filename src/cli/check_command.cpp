@@ -38,7 +38,9 @@ std::string_view check_manual()
            "that is not closed or turned inside out; lamps that are black, face a wall or shine into\n"
            "themselves; BSDFs that give back more light than they receive; a camera inside an object; a "
            "scene\n"
-           "without light. And how much memory rendering takes.\n"
+           "without light, or so far from the origin that floats are too coarse for it; surfaces that lie "
+           "in\n"
+           "each other. And how much memory rendering takes.\n"
            "Exit code: 0 nothing, 1 errors, 2 wrong usage, 3 doubts.\n";
 }
 

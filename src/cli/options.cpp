@@ -51,9 +51,13 @@ constexpr std::pair<std::string_view, std::string_view> foreign_names[] = {
 // Words that look like options and are none of ours, and words of which there are too many.
 void reject_words(const Options& options, const std::vector<std::string>& remaining)
 {
+    const VerbRow& verb = row_of(options.verb);
+    const bool has_more = !remaining.empty() || options.subjects.size() > verb.max_subjects;
+    if (options.verb == Verb::render && has_more && is_no_file_name(options.subject) &&
+        (options.subjects.size() > 1 || !closest_verb(options.subject).empty()))
+        throw UsageError(unknown_verb(options.subject));
     for (const std::string& word : remaining)
         if (word.size() > 1 && word.front() == '-' && word != "--") reject_option(options.verb, word);
-    const VerbRow& verb = row_of(options.verb);
     if (options.subjects.size() <= verb.max_subjects) return;
     const std::string& word = options.subjects[verb.max_subjects];
     for (const VerbRow& row : verb_rows())

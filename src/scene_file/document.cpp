@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "scene_file/document.h"
 
+#include "scene_file/foreign_files.h"
 #include "scene_file/xml_scan.h"
 
 #include <algorithm>
@@ -170,6 +171,10 @@ std::optional<Element> parse_document(const std::filesystem::path& path, std::st
     };
     if (const std::string_view message = unreadable_encoding(file->text()); !message.empty())
         return fail(0, 1, message);
+    if (auto content = foreign_content(file->text())) { // the line may be binary
+        diagnostics.error({.file = path.string(), .line_text = {}}, *std::move(content));
+        return std::nullopt;
+    }
     if (const auto error = scan_xml(file->text(), max_nesting))
         return fail(error->offset, error->length, error->message);
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "plumb/suite.h"
 
+#include "core/named_file.h"
 #include "scene_file/expand.h"
 #include "scene_file/file_order.h"
+#include "scene_file/placement.h"
 #include "scene_file/values.h"
 
 #include <algorithm>
@@ -46,15 +48,13 @@ std::vector<std::string_view> words_of(std::string_view text)
     }
 }
 
-// A file that the user wrote: seen from the suite's folder or, if there is none, from the current one.
-fs::path find_file(const fs::path& folder, const std::string& text)
+// A scene, or a pattern of scenes in one folder.
+fs::path find_scene(const fs::path& folder, const std::string& text)
 {
-    std::error_code ignored;
-    const fs::path beside = folder / text;
-    const auto there = [&](const fs::path& path) {
-        return fs::exists(is_pattern(text) ? path.parent_path() : path, ignored);
-    };
-    return !there(beside) && fs::path(text).has_parent_path() && there(text) ? fs::path(text) : beside;
+    if (!is_pattern(text)) return find_named_file(folder, text).path;
+    const std::size_t slash = text.find_last_of("/\\");
+    if (slash == text.npos) return folder / text;
+    return find_named_file(folder, text.substr(0, slash)).path / text.substr(slash + 1);
 }
 
 // Sorted.
@@ -130,7 +130,7 @@ private:
             diagnostics_.error(element.value_place(*scene), "the name of the scene file is empty");
             return;
         }
-        std::vector<fs::path> scenes = {find_file(element.file->folder(), scene->value).lexically_normal()};
+        std::vector<fs::path> scenes = {find_scene(element.file->folder(), scene->value)};
         if (is_pattern(scene->value)) {
             scenes = matching_files(scenes.front());
             if (scenes.empty())
@@ -248,22 +248,13 @@ private:
         for (const Element& child : element.children) {
             if (child.tag == "define") {
                 for (const Element& grandchild : child.children)
-                    diagnostics_.error(grandchild.place(), cannot_contain(child, grandchild));
+                    diagnostics_.error(grandchild.place(), rejection(child, grandchild));
                 if (check_attributes(child, {"name", "value"}, {}, diagnostics_))
                     inherited.definitions[child.value("name")] = child.value("value");
             } else if (!is_group || (child.tag != "render" && child.tag != "group")) {
-                reject(element, child);
+                diagnostics_.error(child.place(), rejection(element, child));
             }
         }
-    }
-
-    void reject(const Element& parent, const Element& child)
-    {
-        const std::vector<std::string_view> tags = {"render", "group", "define", "default", "include"};
-        const bool known = std::find(tags.begin(), tags.end(), child.tag) != tags.end();
-        diagnostics_.error(child.place(), known ? cannot_contain(parent, child)
-                                                : fmt::format("unknown tag <{}> in a suite{}", child.tag,
-                                                              way_out(child.tag, tags)));
     }
 
     std::span<const std::string_view> settings_;

@@ -170,7 +170,8 @@ TEST_CASE("what is wrong with a suite", "[unit][suite]")
         {"<suite><rendr scene='a.xml'/></suite>",
          "suite.xml:1:8: error: unknown tag <rendr> in a suite; did you mean 'render'?"},
         {"<suite><render scene='a.xml'><render scene='b.xml'/></render></suite>",
-         "suite.xml:1:30: error: a <render> cannot contain a <render>"},
+         "suite.xml:1:30: error: a <render> cannot contain a <render>; it belongs in <suite> or "
+         "<group>"},
         {"<suite><render scene='a.xml'><define name='x'/></render></suite>",
          R"(suite.xml:1:30: error: <define> needs an attribute 'value': <define value="..." .../>)"},
         {"<suite><render scene='a.xml' name='../a'/></suite>",
