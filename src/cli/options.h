@@ -13,7 +13,7 @@
 
 namespace plumb {
 
-enum class Verb { render, help, types, info, replay, rerun, merge, test, compare, agree, race, check, batch };
+enum class Verb { render, types, info, replay, rerun, merge, test, compare, agree, race, check, batch, help };
 
 // The command line makes no sense: main() prints the message and exits with 2.
 class UsageError : public std::runtime_error {

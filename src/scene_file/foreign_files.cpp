@@ -53,9 +53,7 @@ bool is_in(const std::string_view (&words)[count], std::string_view word)
 bool is_of_mitsuba(const Element& element)
 {
     return element.tag == "sensor" || element.tag == "film" ||
-           (element.tag == "bsdf" && element.value("type") == "twosided") ||
-           (element.tag == "integrator" && element.children.size() > 0 &&
-            element.children[0].tag == "integrator");
+           (element.tag == "bsdf" && element.value("type") == "twosided");
 }
 
 // Recursion ends: elements are nested at most max_nesting levels.

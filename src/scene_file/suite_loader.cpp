@@ -49,12 +49,12 @@ std::vector<std::string_view> words_of(std::string_view text)
 }
 
 // A scene, or a pattern of scenes in one folder.
-fs::path find_scene(const fs::path& folder, const std::string& text)
+NamedFile find_scene(const fs::path& folder, const std::string& text)
 {
-    if (!is_pattern(text)) return find_named_file(folder, text).path;
+    if (!is_pattern(text)) return find_named_file(folder, text);
     const std::size_t slash = text.find_last_of("/\\");
-    if (slash == text.npos) return folder / text;
-    return find_named_file(folder, text.substr(0, slash)).path / text.substr(slash + 1);
+    if (slash == text.npos) return {folder / text, {}, {}};
+    return {find_named_file(folder, text.substr(0, slash)).path / text.substr(slash + 1), {}, {}};
 }
 
 // Sorted.
@@ -130,7 +130,8 @@ private:
             diagnostics_.error(element.value_place(*scene), "the name of the scene file is empty");
             return;
         }
-        std::vector<fs::path> scenes = {find_scene(element.file->folder(), scene->value)};
+        const NamedFile named = find_scene(element.file->folder(), scene->value);
+        std::vector<fs::path> scenes = {named.path};
         if (is_pattern(scene->value)) {
             scenes = matching_files(scenes.front());
             if (scenes.empty())
@@ -144,6 +145,7 @@ private:
             if (name && is_pattern(scene->value)) entry.name += "/" + file.stem().string();
             entry.scene = file;
             entry.scene_at = element.value_place(*scene);
+            entry.scene_way_out = named.way_out;
             entry.at = element.place();
             entry.settings = own.settings;
             entry.definitions = own.definitions;

@@ -252,7 +252,7 @@ TEST_CASE("the scenes that come with us have no coincident surfaces and are near
             if (entry.path().extension() != ".xml") continue;
             const std::string text = read_bytes(entry.path());
             if (text.find("<suite") != text.npos || text.find("<test") != text.npos ||
-                text.find("<camera") == text.npos)
+                text.find("<integrator") == text.npos)
                 continue;
             CAPTURE(entry.path());
             const LoadedScene scene = load_scene(entry.path());

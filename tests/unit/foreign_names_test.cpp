@@ -50,7 +50,7 @@ TEST_CASE("the table of foreign names points to what there is", "[unit][foreign_
         CHECK((is_of_tags || is_tag(entry.kind)));
         CHECK(seen.insert(std::string(entry.kind) + " " + folded(entry.name)).second);
         // It must not hide a name of ours.
-        CHECK_FALSE(is_of_tags ? is_tag(entry.name) : is_type(entry.kind, entry.name));
+        CHECK_FALSE((is_of_tags ? is_tag(entry.name) : is_type(entry.kind, entry.name)));
         CHECK(entry.ours.empty() != entry.advice.empty());
         if (!entry.ours.empty()) CHECK((is_of_tags ? is_tag(entry.ours) : is_type(entry.kind, entry.ours)));
         // What advice quotes is a type, and what stands in brackets is an element.

@@ -66,7 +66,7 @@ TEST_CASE("something far away hides nothing", "[unit][check]")
             ": the camera is too far from the origin for 32-bit floats: at coordinates up to 1001 floats "
             "are 6.1e-05 apart, 1/") &&
             ContainsSubstring(" to what it sees; move the whole scene by (-1000, -1000, -1001)\n"));
-    CHECK(doubts(room(0.0, far)).empty());
+    CHECK_THAT(doubts(room(0.0, far)), !ContainsSubstring("floats"));
 }
 
 TEST_CASE("a small lamp far away is doubtful only where floats cannot hold it", "[unit][check]")
