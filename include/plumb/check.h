@@ -19,8 +19,9 @@ struct Doubt {
 // Looks for glass that is not closed, alone or together with glass that ends where it does, or whose front looks
 // inwards; lamps that emit nothing, that face a wall, or that are closed and shine inwards although the camera is
 // outside; BSDFs that reflect more light than they receive; a camera inside an object; a scene without light, or whose light
-// no path from the camera finds. In the
-// order of the objects. Takes samples with fixed seeds: the same scene has the same doubts.
+// no path from the camera finds; scenes and objects that lie so far from the origin that floats are too coarse for them;
+// surfaces that lie in each other, of two objects or of one. In the order of the objects, one kind of doubt after the other.
+// Takes samples with fixed seeds: the same scene has the same doubts.
 std::vector<Doubt> find_doubts(const RenderJob& job);
 
 } // namespace plumb

@@ -33,6 +33,7 @@ struct SuiteEntry {
     std::string name; // of the picture in the output folder, without sample count and ending: "hw4/explicit"
     std::filesystem::path scene;
     SourceLocation scene_at;
+    std::string scene_way_out; // if there is no such file: "; did you mean '../a.xml'?", or empty
     std::map<std::string, SuiteSetting> settings; // spp among them, where it is given: one number
     std::map<std::string, std::string> definitions;
     std::filesystem::path reference; // empty: none

@@ -2,7 +2,9 @@
 
 #include "plumb/check.h"
 
+#include "check/coincidence_doubts.h"
 #include "check/mesh_facts.h"
+#include "check/precision_doubts.h"
 #include "plumb/sampling.h"
 #include "plumb/tracer.h"
 
@@ -37,6 +39,8 @@ public:
         for (std::size_t i = 0; i < facts_.size(); ++i) check(scene_.objects()[i], facts_[i]);
         check_camera();
         check_blackness();
+        for (Doubt& doubt : precision_doubts(job_)) doubts_.push_back(std::move(doubt));
+        for (Doubt& doubt : coincidence_doubts(scene_)) doubts_.push_back(std::move(doubt));
         return std::move(doubts_);
     }
 

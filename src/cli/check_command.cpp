@@ -38,7 +38,8 @@ std::string_view check_manual()
            "that is not closed or turned inside out; lamps that are black, face a wall or shine into\n"
            "themselves; BSDFs that give back more light than they receive; a camera inside an object; a "
            "scene\n"
-           "without light, or with light that no path from the camera finds. And how much memory\n"
+           "without light, with light that no path from the camera finds, or so far from the origin\n"
+           "that floats are too coarse for it; surfaces that lie in each other. And how much memory\n"
            "rendering takes.\n"
            "Exit code: 0 nothing, 1 errors, 2 wrong usage, 3 doubts.\n";
 }

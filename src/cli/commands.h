@@ -17,6 +17,7 @@ int replay_command(const Options& options);
 int rerun_command(const Options& options);
 int merge_command(const Options& options);
 int check_command(const Options& options);
+int help_command(const Options& options);
 int compare_command(const Options& options);
 int agree_command(const Options& options);
 int race_command(const Options& options);

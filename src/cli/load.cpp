@@ -3,6 +3,7 @@
 #include "cli/console.h"
 #include "cli/text.h"
 #include "cli/verbs.h"
+#include "core/named_file.h"
 
 #include <fmt/format.h>
 
@@ -54,10 +55,10 @@ LoadedScene load_and_log(const Options& options)
     const std::filesystem::path path(options.subject);
     std::error_code ignored;
     if (!std::filesystem::exists(path, ignored)) {
-        const std::string_view verb = closest_verb(options.subject);
-        throw Error(verb.empty() ? fmt::format("there is no scene file '{}'", options.subject)
-                                 : fmt::format("there is no scene file '{}'; did you mean the verb '{}'?",
-                                               options.subject, verb));
+        if (is_no_file_name(options.subject) && !closest_verb(options.subject).empty())
+            throw UsageError(unknown_verb(options.subject));
+        throw Error(fmt::format("there is no scene file '{}'{}", options.subject,
+                                find_named_file({}, options.subject).way_out));
     }
     LoadedScene scene = load_scene(path, load_options(options));
     if (options.quiet) return scene;

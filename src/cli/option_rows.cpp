@@ -231,7 +231,7 @@ const OptionRow rows[] = {
          o.compare.how.flip = mode == "ldr" ? FlipMode::ldr : mode == "hdr" ? FlipMode::hdr : FlipMode::none;
      }},
 
-    {Topic::about, render_only, "--version", "", "print the version",
+    {Topic::about, render_only, "-V,--version", "", "print the version",
      [](Options& o, Name, Text) { o.version = true; }},
     {Topic::about, every_verb, "-h,--help", "", "print this", [](Options& o, Name, Text) { o.help = true; }},
 };

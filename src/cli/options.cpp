@@ -49,11 +49,16 @@ constexpr std::pair<std::string_view, std::string_view> foreign_names[] = {
 }
 
 // Words that look like options and are none of ours, and words of which there are too many.
-void reject_words(const Options& options, const std::vector<std::string>& remaining)
+// first: of all words.
+void reject_words(const Options& options, const std::string& first, const std::vector<std::string>& remaining)
 {
+    const VerbRow& verb = row_of(options.verb);
+    const bool has_more = !remaining.empty() || options.subjects.size() > verb.max_subjects;
+    if (options.verb == Verb::render && has_more && options.subject == first && is_no_file_name(first) &&
+        (options.subjects.size() > 1 || !closest_verb(first).empty()))
+        throw UsageError(unknown_verb(first));
     for (const std::string& word : remaining)
         if (word.size() > 1 && word.front() == '-' && word != "--") reject_option(options.verb, word);
-    const VerbRow& verb = row_of(options.verb);
     if (options.subjects.size() <= verb.max_subjects) return;
     const std::string& word = options.subjects[verb.max_subjects];
     for (const VerbRow& row : verb_rows())
@@ -143,6 +148,8 @@ Options parse_options(std::vector<std::string> words)
     const VerbRow& verb = row_of(options.verb);
     if (options.verb != Verb::render) words.erase(words.begin());
 
+    const std::string first = words.empty() ? "" : words.front();
+
     CLI::App app;
     app.set_help_flag();
     app.allow_extras();
@@ -174,7 +181,7 @@ Options parse_options(std::vector<std::string> words)
     if (!options.subjects.empty()) options.subject = options.subjects.front();
     for (const auto& [row, option] : given)
         if (option->count() > 0) apply(*row, option->results(), options);
-    reject_words(options, app.remaining());
+    reject_words(options, first, app.remaining());
     if (options.help || options.version) return options;
 
     if (options.subjects.size() < verb.min_subjects)

@@ -26,7 +26,8 @@ enum class Verb {
     race,
     check,
     batch,
-    new_scene
+    new_scene,
+    help
 };
 
 // The command line makes no sense: main() prints the message and exits with 2.

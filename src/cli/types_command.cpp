@@ -2,6 +2,10 @@
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "cli/exit_codes.h"
+#include "scene_file/catalog.h"
+#include "scene_file/element_manuals.h"
+#include "scene_file/foreign_names.h"
+#include "scene_file/placement.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -19,12 +23,14 @@ std::string first_sentence(std::string_view manual)
     return text.substr(0, text.find(". ")) + (text.find(". ") == std::string::npos ? "" : ".");
 }
 
-void print_list()
+// The types of a kind, or all of them below their kinds.
+void print_list(std::string_view only = {})
 {
     std::size_t width = 0;
     for (const TypeInfo& type : known_types()) width = std::max(width, type.name.size());
     std::string_view kind;
     for (const TypeInfo& type : known_types()) {
+        if (!only.empty() && type.kind != only) continue;
         if (type.kind != kind) print_output(fmt::format("{}{}\n", kind.empty() ? "" : "\n", type.kind));
         kind = type.kind;
         print_output(fmt::format("  {:<{}}  {}\n", type.name, width, first_sentence(type.manual)));
@@ -43,8 +49,17 @@ std::string place_text(std::string_view kind)
                        place);
 }
 
+// The elements that have no types.
+void print_elements()
+{
+    std::string text = "\nelements\n ";
+    for (const ElementManual& manual : element_manuals())
+        if (kind_of_tag(manual.title()).empty()) text += fmt::format(" {}", manual.title());
+    print_output(text + "\n");
+}
+
 // The kinds can share a name; then all their manuals are printed.
-void print_manuals(const std::string& name)
+bool print_type_manuals(const std::string& name)
 {
     bool found = false;
     for (const TypeInfo& type : known_types()) {
@@ -54,8 +69,28 @@ void print_manuals(const std::string& name)
         print_output("\n" + place_text(type.kind));
         found = true;
     }
-    if (found) return;
-    std::vector<std::string_view> names;
+    return found;
+}
+
+bool print_element_manual(std::string_view name)
+{
+    const ElementManual* manual = find_element_manual(name);
+    if (!manual) return false;
+    print_output(fmt::format("{}\n\n{}", manual->names, manual->text));
+    if (const std::string_view kind = kind_of_tag(manual->title()); !kind.empty()) {
+        print_output("\n");
+        print_list(kind);
+    }
+    return true;
+}
+
+// What others call it, or what it could be a slip of.
+[[noreturn]] void reject_name(const std::string& name)
+{
+    for (const TypeInfo& type : known_types())
+        if (const auto foreign = foreign_type(type.kind, name)) throw UsageError(*foreign);
+    if (const auto foreign = foreign_tag(name)) throw UsageError(*foreign);
+    std::vector<std::string_view> names = all_tags();
     for (const TypeInfo& type : known_types()) names.push_back(type.name);
     const std::string_view near = closest_name(name, names);
     throw UsageError(near.empty() ? fmt::format("unknown type '{}'; 'renderer types' lists them", name)
@@ -66,10 +101,13 @@ void print_manuals(const std::string& name)
 
 int types_command(const Options& options)
 {
-    if (options.subject.empty())
+    const std::string& name = options.subject;
+    if (name.empty()) {
         print_list();
-    else
-        print_manuals(options.subject);
+        print_elements();
+    } else if (!print_type_manuals(name) && !print_element_manual(name)) {
+        reject_name(name);
+    }
     return exit_code::done;
 }
 

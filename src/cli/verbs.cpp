@@ -18,7 +18,8 @@ constexpr VerbRow rows[] = {
      render_command},
     {Verb::new_scene, "new", "FILE", "write a small scene to begin with", "scene file", 1, 1, new_command,
      new_manual},
-    {Verb::types, "types", "[NAME]", "list all plugins, or print one's manual", "name", 0, 1, types_command},
+    {Verb::help, "help", "[VERB]", "print this, or a verb's manual", "verb", 0, 1, help_command},
+    {Verb::types, "types", "[NAME]", "list all types, or print a manual", "name", 0, 1, types_command},
     {Verb::info, "info", "IMAGE", "print what an image's header says", "image", 1, 1, info_command},
     {Verb::replay, "replay", "SCENE --pixel X,Y --sample I [options]", "print the path of one sample",
      "scene file", 1, 1, replay_command},
@@ -57,6 +58,18 @@ const VerbRow& row_of(Verb verb)
     for (const VerbRow& row : rows)
         if (row.verb == verb) return row;
     return rows[0];
+}
+
+bool is_no_file_name(std::string_view word)
+{
+    return word.find_first_of("./") == word.npos;
+}
+
+std::string unknown_verb(std::string_view word)
+{
+    const std::string_view verb = closest_verb(word);
+    return verb.empty() ? fmt::format("unknown verb '{}'; 'renderer --help' lists the verbs", word)
+                        : fmt::format("unknown verb '{}'; did you mean '{}'?", word, verb);
 }
 
 std::string_view closest_verb(std::string_view word)

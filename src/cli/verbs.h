@@ -27,7 +27,13 @@ struct VerbRow {
 std::span<const VerbRow> verb_rows();
 const VerbRow& row_of(Verb verb);
 
+// Whether nobody would call a file so: it has neither a folder nor an ending.
+bool is_no_file_name(std::string_view word);
+
 // The verb that `word` is or could be a slip of; else empty.
 std::string_view closest_verb(std::string_view word);
+
+// "unknown verb 'chek'; did you mean 'check'?"
+std::string unknown_verb(std::string_view word);
 
 } // namespace plumb

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "plumb/params.h"
 
+#include "core/named_file.h"
+
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -215,7 +217,8 @@ std::filesystem::path Params::file(std::string_view name) const
         missing_file_ = true;
         return {};
     }
-    const auto path = (folder_ / std::get<std::string>(property->value)).lexically_normal();
+    const auto [path, way_out, notice] = find_named_file(folder_, std::get<std::string>(property->value));
+    if (!notice.empty()) warn(name, notice);
     std::error_code status;
     const bool found = std::filesystem::is_regular_file(path, status);
     if (found) {
@@ -224,11 +227,11 @@ std::filesystem::path Params::file(std::string_view name) const
     }
     missing_file_ = true;
     fail(name,
-         fmt::format("{}: '{}'",
+         fmt::format("{}: '{}'{}",
                      std::filesystem::is_directory(path, status) ? "is a folder, not a file"
                      : std::filesystem::exists(path, status) ? "is a device, a pipe or the like, not a file"
                                                              : "names a file that does not exist",
-                     path.string()));
+                     path.string(), way_out));
     return path;
 }
 

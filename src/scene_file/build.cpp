@@ -5,6 +5,8 @@
 #include "core/parallel.h"
 #include "scene_file/axis_camera.h"
 #include "scene_file/build_child.h"
+#include "scene_file/foreign_names.h"
+#include "scene_file/placement.h"
 #include "scene_file/values.h"
 
 #include <algorithm>
@@ -52,7 +54,7 @@ public:
             else if (is_property_tag(child.tag))
                 check_property(child);
             else
-                reject_child(root_, child, diagnostics_);
+                diagnostics_.error(child.place(), rejection(root_, child));
         }
         build_children();
         build_camera();
@@ -199,10 +201,11 @@ private:
         std::vector<std::string_view> names;
         for (const Entry<Kind>& entry : entries) names.push_back(entry.name);
         if (std::find(names.begin(), names.end(), type) != names.end()) return true;
-        const auto instead = unsupported(option, type);
+        const auto foreign = foreign_type(option, type);
         diagnostics_.error(
-            {}, instead ? fmt::format("--{0} {1}: {0} '{1}' is not supported; {2}", option, type, *instead)
-                        : fmt::format("--{0} {1}: unknown {0} '{1}'{2}", option, type, way_out(type, names)));
+            {}, fmt::format("--{} {}: {}", option, type,
+                            foreign ? *foreign
+                                    : fmt::format("unknown {} '{}'{}", option, type, way_out(type, names))));
         return false;
     }
 

@@ -96,40 +96,6 @@ constexpr Entry<Integrator> integrators[] = {
 
 namespace {
 
-// What course files also use: kind, type, and what to do instead.
-struct Unsupported {
-    std::string_view kind;
-    std::string_view type;
-    std::string_view instead;
-};
-constexpr Unsupported unsupported_types[] = {
-    {"medium", "", "Plumb renders surfaces in a vacuum only"},
-    {"phase", "", "Plumb renders surfaces in a vacuum only"},
-    {"denoiser", "",
-     "Plumb's pictures are unbiased estimates; denoise the written .exr with another program"},
-    {"integrator", "volume", "Plumb renders surfaces in a vacuum only; use 'path_mis'"},
-    {"integrator", "path_simple", "it is 'path_mats' here"},
-    {"integrator", "photonmapper", "use 'path_mis'"},
-    {"integrator", "material", "use 'normals', or 'direct' with a 'point' light"},
-    {"bsdf", "conductor", "use 'mirror', or 'roughconductor' with a small alpha"},
-    {"bsdf", "rough_dielectric", "use 'roughdielectric'"},
-    {"bsdf", "rough_conductor", "use 'roughconductor'"},
-    {"bsdf", "null", "leave the surface out"},
-    {"bsdf", "disney_brdf", "use 'roughsubstrate' or 'roughconductor'"},
-    {"shape", "plane", "use 'rectangle', or an 'obj' mesh"},
-    {"shape", "instance", "repeat the shape with its own toWorld"},
-    {"emitter", "spot_emitter", "use an 'area' emitter on a small shape inside a black tube, or 'point'"},
-    {"emitter", "distantdisk", "use 'environment', or 'directional' for a small disk"},
-    {"emitter", "texturearea", "use 'area' with <texture name=\"radiance\">"},
-    {"emitter", "rectEmitter", "use 'area' on a 'rectangle'"},
-    {"emitter", "diskEmitter", "use 'area' on an 'obj' mesh"},
-    {"emitter", "sphereEmitter", "use 'area' on a 'sphere'"},
-    {"texture", "uvtexture", "use 'imagetexture_color3f' with a picture of it"},
-    {"texture", "wood", "use 'textmap' with an image"},
-    {"texture", "imagetexture", "use 'imagetexture_color3f' with <string name=\"filepath\">"},
-    {"texture", "constanttexture", "use 'constant_color'"},
-};
-
 // Plugins ignore some more by themselves, where they can say what to do instead.
 constexpr IgnoredParameter ignored_parameters[] = {
     {"", "", "name", "", ""},
@@ -228,13 +194,6 @@ std::string_view kind_of_type(std::string_view name)
     return {};
 }
 
-std::optional<std::string_view> unsupported(std::string_view kind, std::string_view type)
-{
-    for (const Unsupported& entry : unsupported_types)
-        if (entry.kind == kind && entry.type == type) return entry.instead;
-    return {};
-}
-
 const IgnoredParameter* find_ignored(std::string_view kind, std::string_view type, std::string_view name)
 {
     const auto found = std::find_if(
@@ -245,17 +204,46 @@ const IgnoredParameter* find_ignored(std::string_view kind, std::string_view typ
     return found == std::end(ignored_parameters) ? nullptr : found;
 }
 
-std::vector<std::string_view> parameters_in(std::string_view manual)
+namespace {
+
+// The lines of a manual page that describe a parameter, without their indentation of exactly four blanks.
+std::vector<std::string_view> parameter_lines(std::string_view manual)
 {
-    std::vector<std::string_view> names;
+    std::vector<std::string_view> lines;
     while (!manual.empty()) {
         const std::size_t end = std::min(manual.find('\n'), manual.size());
         const std::string_view line = manual.substr(0, end);
         manual.remove_prefix(std::min(end + 1, manual.size()));
-        // A parameter's line is indented by exactly four blanks.
-        if (line.size() > 4 && line.substr(0, 4) == "    " && letters.find(line[4]) != letters.npos) {
-            const std::string_view rest = line.substr(4);
-            names.push_back(rest.substr(0, std::min(rest.find_first_not_of(name_characters), rest.size())));
+        if (line.size() > 4 && line.substr(0, 4) == "    " && letters.find(line[4]) != letters.npos)
+            lines.push_back(line.substr(4));
+    }
+    return lines;
+}
+
+std::string_view leading_name(std::string_view line)
+{
+    return line.substr(0, std::min(line.find_first_not_of(name_characters), line.size()));
+}
+
+} // namespace
+
+std::vector<std::string_view> parameters_in(std::string_view manual)
+{
+    std::vector<std::string_view> names;
+    for (const std::string_view line : parameter_lines(manual)) names.push_back(leading_name(line));
+    return names;
+}
+
+std::vector<std::string_view> texture_parameters_of(std::string_view kind, std::string_view type)
+{
+    std::vector<std::string_view> names;
+    for (const TypeInfo& info : known_types()) {
+        if (info.kind != kind || info.name != type) continue;
+        for (const std::string_view line : parameter_lines(info.manual)) {
+            std::string_view rest = line.substr(leading_name(line).size());
+            rest.remove_prefix(std::min(rest.find_first_not_of(' '), rest.size()));
+            if (rest.starts_with("color or texture") || rest.starts_with("float or texture"))
+                names.push_back(leading_name(line));
         }
     }
     return names;

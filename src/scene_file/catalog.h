@@ -37,10 +37,6 @@ std::string_view kind_of_tag(std::string_view tag);
 // The kind that has a type of this name, or "".
 std::string_view kind_of_type(std::string_view type);
 
-// What to do instead of a tag or type that course files use and Plumb does not support; nothing for other names.
-// type is empty for a tag that is not supported at all.
-std::optional<std::string_view> unsupported(std::string_view kind, std::string_view type);
-
 // A parameter that course files carry and the courses' own code never reads.
 struct IgnoredParameter {
     std::string_view kind; // empty: every kind
@@ -53,5 +49,7 @@ const IgnoredParameter* find_ignored(std::string_view kind, std::string_view typ
 
 // The parameters that a manual page lists.
 std::vector<std::string_view> parameters_in(std::string_view manual);
+// Those of a type that may be textures, as its manual page says.
+std::vector<std::string_view> texture_parameters_of(std::string_view kind, std::string_view type);
 
 } // namespace plumb

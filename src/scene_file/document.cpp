@@ -2,6 +2,7 @@
 #include "scene_file/document.h"
 
 #include "io/regular_file.h"
+#include "scene_file/foreign_files.h"
 #include "scene_file/xml_scan.h"
 
 #include <algorithm>
@@ -171,6 +172,10 @@ std::optional<Element> parse_document(const std::filesystem::path& path, std::st
     };
     if (const std::string_view message = unreadable_encoding(file->text()); !message.empty())
         return fail(0, 1, message);
+    if (auto content = foreign_content(file->text())) { // the line may be binary
+        diagnostics.error({.file = path.string(), .line_text = {}}, *std::move(content));
+        return std::nullopt;
+    }
     if (!is_ours && !stranger.tag.empty()) {
         stranger.file = file;
         return stranger;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "scene_file/expand.h"
 
+#include "core/named_file.h"
+#include "scene_file/foreign_files.h"
+#include "scene_file/placement.h"
 #include "scene_file/values.h"
 
 #include <algorithm>
@@ -104,7 +107,7 @@ private:
     void reject_children(const Element& element)
     {
         for (const Element& child : element.children)
-            diagnostics_.error(child.place(), cannot_contain(element, child));
+            diagnostics_.error(child.place(), rejection(element, child));
     }
 
     void define(Element& element)
@@ -133,10 +136,11 @@ private:
         if (!check_attributes(element, {"filename"}, {}, diagnostics_)) return;
         substitute_all(element);
         if (element.attribute("filename")->broken) return;
-        const auto path = (element.file->folder() / element.value("filename")).lexically_normal();
-        const auto fail = [&](std::string message) {
-            diagnostics_.error(element.value_place(*element.attribute("filename")), std::move(message));
-        };
+        const auto [path, way_out, notice] =
+            find_named_file(element.file->folder(), element.value("filename"));
+        const SourceLocation at = element.value_place(*element.attribute("filename"));
+        const auto fail = [&](std::string message) { diagnostics_.error(at, std::move(message)); };
+        if (!notice.empty()) diagnostics_.warning(at, notice);
         if (std::find(open_.begin(), open_.end(), identity(path)) != open_.end())
             return fail(fmt::format("'{}' includes itself, directly or through other files", path.string()));
         if (open_.size() > limits_.depth)
@@ -154,9 +158,13 @@ private:
                                         path.string(), kind_, limits_.text_size));
             root = parse_document(path, std::move(text), diagnostics_);
         } catch (const Error& error) {
-            return fail(error.what());
+            return fail(error.what() + way_out);
         }
         if (!root) return;
+        if (const auto foreign = foreign_scene(*root)) {
+            diagnostics_.add(foreign->severity, foreign->location, foreign->message);
+            return;
+        }
         files_.push_back(root->file);
         parts_ += count_parts(*root);
         if (parts_ > limits_.parts)

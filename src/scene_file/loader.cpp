@@ -7,6 +7,7 @@
 #include "scene_file/dialects.h"
 #include "scene_file/expand.h"
 #include "scene_file/file_order.h"
+#include "scene_file/foreign_files.h"
 
 #include <chrono>
 #include <future>
@@ -57,9 +58,13 @@ std::string input_hash(const std::vector<InputFile>& files, const Dialect& diale
     return hash.hex();
 }
 
-// The root element must be a <scene>.
+// The root element must be a <scene>, and of ours.
 bool check_root(const Element& root, Diagnostics& diagnostics)
 {
+    if (const auto foreign = foreign_scene(root)) {
+        diagnostics.add(foreign->severity, foreign->location, foreign->message);
+        return false;
+    }
     if (root.tag == "scene") return true;
     diagnostics.error(root.place(),
                       root.tag == "test"

@@ -2,7 +2,9 @@
 #include "scene_file/objects.h"
 
 #include "plumb/scene_file.h"
+#include "scene_file/foreign_names.h"
 #include "scene_file/manual.h"
+#include "scene_file/placement.h"
 #include "scene_file/values.h"
 
 #include <algorithm>
@@ -11,26 +13,6 @@
 #include <fmt/format.h>
 
 namespace plumb {
-
-namespace {
-
-// "a bsdf", "an emitter".
-std::string with_article(std::string_view noun)
-{
-    const bool vowel = std::string_view("aeio").find(noun.empty() ? 'x' : noun[0]) != std::string_view::npos;
-    return fmt::format("{} {}", vowel ? "an" : "a", noun);
-}
-
-std::vector<std::string_view> all_tags()
-{
-    std::vector<std::string_view> tags = {"include", "default", "mesh",   "boolean", "integer",  "float",
-                                          "string",  "point",   "vector", "color",   "transform"};
-    for (const TypeInfo& type : known_types())
-        if (std::find(tags.begin(), tags.end(), type.kind) == tags.end()) tags.push_back(type.kind);
-    return tags;
-}
-
-} // namespace
 
 void LoadContext::add_file(const std::filesystem::path& file)
 {
@@ -42,22 +24,15 @@ std::string_view kind_of(const Element& element)
     return kind_of_tag(element.tag);
 }
 
-void reject_child(const Element& parent, const Element& child, Diagnostics& diagnostics)
+namespace {
+
+bool takes_textures(const Element& element)
 {
-    const std::vector<std::string_view> tags = all_tags();
-    const bool known = std::find(tags.begin(), tags.end(), child.tag) != tags.end();
-    if (const auto instead = unsupported(child.tag, ""))
-        diagnostics.error(child.place(), fmt::format("<{}> is not supported; {}", child.tag, *instead));
-    else if (child.tag == "include" || child.tag == "default")
-        diagnostics.error(child.place(), fmt::format("<{}> must stand directly inside <scene>", child.tag));
-    else if (is_transform_operation(child.tag))
-        diagnostics.error(child.place(), fmt::format("<{}> must stand inside a <transform>", child.tag));
-    else if (known || child.tag == "scene" || child.tag == "test")
-        diagnostics.error(child.place(), cannot_contain(parent, child));
-    else
-        diagnostics.error(child.place(),
-                          fmt::format("unknown tag <{}>{}", child.tag, way_out(child.tag, tags)));
+    const std::vector<std::string_view> parents = parents_of("texture");
+    return std::find(parents.begin(), parents.end(), element.tag) != parents.end();
 }
+
+} // namespace
 
 ObjectReader::ObjectReader(const Element& element, LoadContext& context,
                            std::initializer_list<std::string_view> child_tags)
@@ -68,9 +43,7 @@ ObjectReader::ObjectReader(const Element& element, LoadContext& context,
               element.file->folder())
 {
     params_.set_lenient(context.lenient);
-    if (element.tag == "texture")
-        check_attributes(element, {"type", "name"}, {"id"}, context.diagnostics);
-    else if (element.tag == "test")
+    if (element.tag == "test")
         check_attributes(element, {"type"}, {"dialect", "name", "id"}, context.diagnostics);
     else
         check_attributes(element, {"type"}, {"name", "id"}, context.diagnostics);
@@ -82,21 +55,20 @@ void ObjectReader::read_children(std::initializer_list<std::string_view> child_t
     for (const Element& child : element_.children) {
         if (is_property_tag(child.tag))
             add_property(child);
-        else if (child.tag == "texture" && kind_of(element_) != "shape")
+        else if (child.tag == "texture" && takes_textures(element_))
             add_texture(child);
         else if (std::find(child_tags.begin(), child_tags.end(), child.tag) == child_tags.end())
-            reject_child(element_, child, context_.diagnostics);
+            context_.diagnostics.error(child.place(), rejection(element_, child));
     }
 }
 
-bool ObjectReader::is_first(const Element& child, std::string_view name)
+bool ObjectReader::is_first(const Element& child, std::string_view name, const SourceLocation& at)
 {
     const auto [first, is_new] = given_.emplace(name, child.place());
     if (is_new) return true;
     const bool same_file = first->second.file == child.file->path().string();
-    context_.diagnostics.error(child.value_place(*child.attribute("name")),
-                               fmt::format("'{}' is given twice; first given at {} {}", name,
-                                           same_file ? "line" : first->second.file, first->second.line));
+    context_.diagnostics.error(at, fmt::format("'{}' is given twice; first given at {} {}", name,
+                                               same_file ? "line" : first->second.file, first->second.line));
     return false;
 }
 
@@ -105,7 +77,7 @@ void ObjectReader::add_property(const Element& child)
     auto property = read_property(child, context_.diagnostics);
     if (!property) return;
     const std::string name = child.value("name");
-    if (is_first(child, name)) params_.add(name, *std::move(property));
+    if (is_first(child, name, property->name_at)) params_.add(name, *std::move(property));
 }
 
 void ObjectReader::add_texture(const Element& child)
@@ -113,18 +85,39 @@ void ObjectReader::add_texture(const Element& child)
     ObjectReader reader(child, context_);
     std::shared_ptr<const Texture> texture = reader.build(texture_types());
     if (texture) context_.texture_bytes += texture->memory_bytes();
-    const std::string name = child.value("name");
+    const std::optional<std::string> name = texture_name(child);
+    if (!name) return;
+    const Attribute* attribute = child.attribute("name");
+    const SourceLocation at = attribute ? child.value_place(*attribute) : child.place();
     // One that could not be made still stands here, so that a wrong name is found, too.
-    if (child.attribute("name") && is_first(child, name))
-        params_.add_texture({name, std::move(texture), child.value_place(*child.attribute("name"))});
+    if (is_first(child, *name, at)) params_.add_texture({*name, std::move(texture), at});
+}
+
+// The parameter that a texture is for: of objects that take one texture, that one, if it has no name.
+std::optional<std::string> ObjectReader::texture_name(const Element& child)
+{
+    if (child.attribute("name")) return child.value("name");
+    const std::vector<std::string_view> names = texture_parameters_of(kind_of(element_), type_);
+    if (names.size() == 1) return std::string(names.front());
+    std::string choice;
+    for (std::size_t i = 0; i < names.size(); ++i)
+        choice += fmt::format("{}name=\"{}\"", i == 0 ? "" : i + 1 == names.size() ? " or " : ", ", names[i]);
+    if (!choice.empty())
+        context_.diagnostics.error(
+            child.place(), fmt::format("<texture> needs an attribute 'name', for {} '{}' takes several: {}",
+                                       element_.tag, type_, choice));
+    else if (kind_of_type(type_) == kind_of(element_))
+        context_.diagnostics.error(child.place(),
+                                   fmt::format("{} '{}' takes no texture", element_.tag, type_));
+    return {};
 }
 
 void ObjectReader::fail_unknown_type(const std::vector<std::string_view>& names) const
 {
     const std::string_view kind = kind_of(element_);
     const SourceLocation at = element_.value_place(*element_.attribute("type"));
-    if (const auto instead = unsupported(kind, type_))
-        context_.diagnostics.error(at, fmt::format("{} '{}' is not supported; {}", kind, type_, *instead));
+    if (const auto instead = foreign_type(kind, type_))
+        context_.diagnostics.error(at, *instead);
     else if (const std::string_view other = kind_of_type(type_); !other.empty())
         context_.diagnostics.error(
             at, fmt::format("'{}' is {}, not {}", type_, with_article(other), with_article(kind)));

@@ -21,9 +21,6 @@ struct LoadContext {
 
 std::string_view kind_of(const Element& element);
 
-// "a <mesh> cannot contain a <camera>", or what is wrong with the tag itself.
-void reject_child(const Element& parent, const Element& child, Diagnostics& diagnostics);
-
 // An element's parameters, ready for the constructor. Children that are neither properties nor textures must have one
 // of the given tags; the caller deals with those.
 class ObjectReader {
@@ -69,7 +66,8 @@ private:
     void read_children(std::initializer_list<std::string_view> child_tags);
     void add_property(const Element& child);
     void add_texture(const Element& child);
-    bool is_first(const Element& child, std::string_view name);
+    std::optional<std::string> texture_name(const Element& child);
+    bool is_first(const Element& child, std::string_view name, const SourceLocation& at);
     void fail_unknown_type(const std::vector<std::string_view>& names) const;
     void run(std::string_view class_name, const std::function<void()>& construct);
     void check_against_manual(std::string_view class_name);

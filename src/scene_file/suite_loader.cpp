@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "plumb/suite.h"
 
+#include "core/named_file.h"
 #include "scene_file/expand.h"
 #include "scene_file/file_order.h"
+#include "scene_file/placement.h"
 #include "scene_file/values.h"
 
 #include <algorithm>
@@ -62,15 +64,13 @@ std::size_t size_of_settings(const SuiteEntry& entry)
     return size;
 }
 
-// A file that the user wrote: seen from the suite's folder or, if there is none, from the current one.
-fs::path find_file(const fs::path& folder, const std::string& text)
+// A scene, or a pattern of scenes in one folder.
+NamedFile find_scene(const fs::path& folder, const std::string& text)
 {
-    std::error_code ignored;
-    const fs::path beside = folder / text;
-    const auto there = [&](const fs::path& path) {
-        return fs::exists(is_pattern(text) ? path.parent_path() : path, ignored);
-    };
-    return !there(beside) && fs::path(text).has_parent_path() && there(text) ? fs::path(text) : beside;
+    if (!is_pattern(text)) return find_named_file(folder, text);
+    const std::size_t slash = text.find_last_of("/\\");
+    if (slash == text.npos) return {folder / text, {}, {}};
+    return {find_named_file(folder, text.substr(0, slash)).path / text.substr(slash + 1), {}, {}};
 }
 
 // Sorted.
@@ -146,7 +146,8 @@ private:
             diagnostics_.error(element.value_place(*scene), "the name of the scene file is empty");
             return;
         }
-        std::vector<fs::path> scenes = {find_file(element.file->folder(), scene->value).lexically_normal()};
+        const NamedFile named = find_scene(element.file->folder(), scene->value);
+        std::vector<fs::path> scenes = {named.path};
         if (is_pattern(scene->value)) {
             scenes = matching_files(scenes.front());
             if (scenes.empty())
@@ -160,6 +161,7 @@ private:
             if (name && is_pattern(scene->value)) entry.name += "/" + file.stem().string();
             entry.scene = file;
             entry.scene_at = element.value_place(*scene);
+            entry.scene_way_out = named.way_out;
             entry.at = element.place();
             entry.settings = own.settings;
             entry.definitions = own.definitions;
@@ -275,25 +277,16 @@ private:
         for (const Element& child : element.children) {
             if (child.tag == "define") {
                 for (const Element& grandchild : child.children)
-                    diagnostics_.error(grandchild.place(), cannot_contain(child, grandchild));
+                    diagnostics_.error(grandchild.place(), rejection(child, grandchild));
                 if (inherited.definitions.size() >= max_definitions)
                     diagnostics_.error(child.place(),
                                        fmt::format("a picture has at most {} definitions", max_definitions));
                 else if (check_attributes(child, {"name", "value"}, {}, diagnostics_))
                     inherited.definitions[child.value("name")] = child.value("value");
             } else if (!is_group || (child.tag != "render" && child.tag != "group")) {
-                reject(element, child);
+                diagnostics_.error(child.place(), rejection(element, child));
             }
         }
-    }
-
-    void reject(const Element& parent, const Element& child)
-    {
-        const std::vector<std::string_view> tags = {"render", "group", "define", "default", "include"};
-        const bool known = std::find(tags.begin(), tags.end(), child.tag) != tags.end();
-        diagnostics_.error(child.place(), known ? cannot_contain(parent, child)
-                                                : fmt::format("unknown tag <{}> in a suite{}", child.tag,
-                                                              way_out(child.tag, tags)));
     }
 
     std::span<const std::string_view> settings_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // <transform> and the operations in it.
 
+#include "scene_file/placement.h"
 #include "scene_file/values.h"
 
 #include <algorithm>
@@ -123,11 +124,6 @@ bool is_sane(const Transform& transform)
 
 } // namespace
 
-bool is_transform_operation(std::string_view tag)
-{
-    return find_operation(tag) != nullptr;
-}
-
 std::optional<Transform> read_transform(const Element& element, Diagnostics& diagnostics)
 {
     Transform product;
@@ -135,14 +131,12 @@ std::optional<Transform> read_transform(const Element& element, Diagnostics& dia
     for (const Element& child : element.children) {
         const Operation* operation = find_operation(child.tag);
         if (!operation) {
-            std::vector<std::string_view> tags;
-            for (const Operation& known : operations) tags.push_back(known.tag);
-            diagnostics.error(child.place(), cannot_contain(element, child) + way_out(child.tag, tags));
+            diagnostics.error(child.place(), rejection(element, child));
             good = false;
             continue;
         }
         for (const Element& inner : child.children) {
-            diagnostics.error(inner.place(), cannot_contain(child, inner));
+            diagnostics.error(inner.place(), rejection(child, inner));
             good = false;
         }
         if (const auto step = operation->read(child, diagnostics))

@@ -2,6 +2,7 @@
 #include "scene_file/values.h"
 
 #include "core/lower_case.h"
+#include "scene_file/placement.h"
 
 #include <algorithm>
 #include <charconv>
@@ -14,8 +15,8 @@ namespace {
 
 constexpr std::string_view blanks = " \t\r\n";
 constexpr std::string_view separators = ", \t\r\n";
-constexpr std::string_view property_tags[] = {"boolean", "integer", "float", "string",
-                                              "point",   "vector",  "color", "transform"};
+constexpr std::string_view tags_of_properties[] = {"boolean", "integer", "float", "string",
+                                                   "point",   "vector",  "color", "transform"};
 
 // Long values are cut in messages.
 std::string in_quotes(std::string_view text)
@@ -206,18 +207,15 @@ bool check_attributes(const Element& element, std::initializer_list<std::string_
     return complete;
 }
 
-std::string cannot_contain(const Element& parent, const Element& child)
+std::span<const std::string_view> property_tags()
 {
-    const auto article = [](const Element& element) {
-        return std::string_view("aeio").find(element.tag[0]) == std::string_view::npos ? "a" : "an";
-    };
-    return fmt::format("{} <{}> cannot contain {} <{}>", article(parent), parent.tag, article(child),
-                       child.tag);
+    return tags_of_properties;
 }
 
 bool is_property_tag(std::string_view tag)
 {
-    return std::find(std::begin(property_tags), std::end(property_tags), tag) != std::end(property_tags);
+    return std::find(std::begin(tags_of_properties), std::end(tags_of_properties), tag) !=
+           std::end(tags_of_properties);
 }
 
 std::optional<Property> read_property(const Element& element, Diagnostics& diagnostics)
@@ -232,7 +230,7 @@ std::optional<Property> read_property(const Element& element, Diagnostics& diagn
     } else {
         check_attributes(element, {"name", "value"}, {}, diagnostics);
         for (const Element& child : element.children)
-            diagnostics.error(child.place(), cannot_contain(element, child));
+            diagnostics.error(child.place(), rejection(element, child));
         if (const Attribute* attribute = element.attribute("value")) {
             property.text = attribute->value;
             property.value_at = element.value_place(*attribute);

@@ -7,6 +7,8 @@
 #include "plumb/params.h"
 #include "scene_file/document.h"
 
+#include <span>
+
 namespace plumb {
 
 // A decimal number and nothing else but blanks around it: finite, also as a 32-bit float. A leading + is fine.
@@ -30,15 +32,13 @@ std::optional<std::int64_t> read_integer(const Element& element, const Attribute
 bool check_attributes(const Element& element, std::initializer_list<std::string_view> required,
                       std::initializer_list<std::string_view> optional, Diagnostics& diagnostics);
 
-// "a <mesh> cannot contain an <integrator>".
-std::string cannot_contain(const Element& parent, const Element& child);
-
+// boolean, integer and so on.
+std::span<const std::string_view> property_tags();
 bool is_property_tag(std::string_view tag);
 // The parameter that a property element (boolean, integer, float, string, point, vector, color, transform) gives;
 // nothing where it has no name.
 std::optional<Property> read_property(const Element& element, Diagnostics& diagnostics);
 
-bool is_transform_operation(std::string_view tag);
 // The product of a <transform>'s operations; the first one is applied first.
 std::optional<Transform> read_transform(const Element& element, Diagnostics& diagnostics);
 

@@ -43,7 +43,6 @@ TEST_CASE("a wrong scene exits with 1, says where, and writes nothing", "[cli][e
         return result.err;
     };
     CHECK(complaint({"none.xml"}) == "error: there is no scene file 'none.xml'\n");
-    CHECK(complaint({"tpyes"}) == "error: there is no scene file 'tpyes'; did you mean the verb 'types'?\n");
     CHECK_THAT(complaint({"scene.xml", "--crop", "40,0,9,1"}),
                ContainsSubstring("error: the crop 40,0,9,1 is not inside the picture of 48x36 pixels\n"));
     CHECK_THAT(complaint({"scene.xml", "--integrator", "path_miss"}),

@@ -142,14 +142,6 @@ TEST_CASE("tags and kinds", "[unit][catalog]")
     CHECK(kind_of_tag("color").empty());
     CHECK(kind_of_type("path_nee") == "integrator");
     CHECK(kind_of_type("photonmapper").empty());
-    CHECK(unsupported("integrator", "photonmapper"));
-    CHECK_FALSE(unsupported("integrator", "path"));
-    CHECK(unsupported("medium", ""));
-    // Nothing is both supported and not.
-    for (const TypeInfo& type : known_types()) {
-        CHECK_FALSE(unsupported(type.kind, type.name));
-        CHECK_FALSE(unsupported(type.kind, ""));
-    }
 }
 
 TEST_CASE("parameters that files carry and nobody reads", "[unit][catalog]")

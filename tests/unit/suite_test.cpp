@@ -168,9 +168,10 @@ TEST_CASE("what is wrong with a suite", "[unit][suite]")
         {"<suite scene='a.xml'><render scene='a.xml'/></suite>",
          "suite.xml:1:8: error: unknown attribute 'scene' for <suite>; 'renderer batch --help' lists them"},
         {"<suite><rendr scene='a.xml'/></suite>",
-         "suite.xml:1:8: error: unknown tag <rendr> in a suite; did you mean 'render'?"},
+         "suite.xml:1:8: error: unknown tag <rendr>; did you mean 'render'?"},
         {"<suite><render scene='a.xml'><render scene='b.xml'/></render></suite>",
-         "suite.xml:1:30: error: a <render> cannot contain a <render>"},
+         "suite.xml:1:30: error: a <render> cannot contain a <render>; it belongs in <suite> or "
+         "<group>"},
         {"<suite><render scene='a.xml'><define name='x'/></render></suite>",
          R"(suite.xml:1:30: error: <define> needs an attribute 'value': <define value="..." .../>)"},
         {"<suite><render scene='a.xml' name='../a'/></suite>",

@@ -34,8 +34,9 @@ LoadedScene load_scene_of(const SuiteEntry& entry, Options options)
 {
     std::error_code ignored;
     if (!fs::exists(entry.scene, ignored)) {
-        const Diagnostic missing{Severity::error, entry.scene_at,
-                                 fmt::format("there is no scene file '{}'", entry.scene.string())};
+        const Diagnostic missing{
+            Severity::error, entry.scene_at,
+            fmt::format("there is no scene file '{}'{}", entry.scene.string(), entry.scene_way_out)};
         throw SceneError({missing});
     }
     options.quiet = true;

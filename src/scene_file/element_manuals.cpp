@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#include "scene_file/element_manuals.h"
+
+#include <algorithm>
+
+namespace plumb {
+
+namespace {
+
+// Elements with types end with the list of these, which the caller prints.
+constexpr ElementManual manuals[] = {
+    {"scene", R"(The root of a scene file.
+
+Holds one <camera>, one <integrator>, at most one <sampler>, any number of <mesh> or <shape> and of <emitter>, in any
+order, and <include> and <default>. The attribute `dialect` says which course's readings apply: plumb, epfl, eth,
+zaragoza or mcgill; without it they are decided from evidence in the file.
+
+        <scene dialect="plumb">
+            <integrator type="path_mis"/>
+            <camera type="perspective"/>
+            <mesh type="sphere"> <emitter type="area"/> </mesh>
+        </scene>
+)"},
+    {"transform translate scale rotate lookat matrix",
+     R"(A parameter that is a matrix: the product of operations, the first one applied first.
+
+    translate   value="x,y,z"
+    scale       value="x,y,z", none of them 0
+    rotate      axis="x,y,z" angle="degrees", counter-clockwise seen from the axis' tip
+    lookat      origin="x,y,z" target="x,y,z" up="x,y,z": places a camera, which looks from origin to target
+    matrix      value="16 numbers", row by row; the last row is 0 0 0 1
+
+For example:
+
+        <transform name="toWorld">
+            <scale value="2,2,2"/>
+            <rotate axis="0,1,0" angle="30"/>
+            <translate value="0,1,0"/>
+        </transform>
+)"},
+    {"parameter boolean integer float string point vector color",
+     R"(A value, in the object whose parameter it is; 'renderer types TYPE' lists an object's parameters.
+
+    boolean   true or false
+    integer   a whole number
+    float     a number; an integer will do
+    string    text; names of files are seen from the folder of the file that they stand in
+    point     three numbers
+    vector    three numbers, or two where a texture takes u and v
+    color     three numbers: linear RGB
+
+Numbers in a list are separated by commas or blanks. For example:
+
+        <float name="fov" value="40"/>
+        <color name="albedo" value="0.7,0.6,0.5"/>
+)"},
+    {"include", R"(Puts the children of another file's root in its place.
+
+    filename   seen from the folder of the file that it stands in
+
+It stands in <scene> (in suites: in <suite> or <group>). For example:
+
+        <include filename="parts/lamps.xml"/>
+)"},
+    {"default", R"(Gives $name a value, to be used in any attribute of the scene.
+
+    name    letters, digits, - and _; it begins with a letter or _
+    value   any text
+
+The command line's -D name=value goes before every <default>, and the first <default> of a name before later ones.
+$$ stands for the sign itself. It stands in <scene> (in suites: in <suite> or <group>). For example:
+
+        <default name="spp" value="64"/>
+        <sampler type="independent"> <integer name="sampleCount" value="$spp"/> </sampler>
+)"},
+    {"mesh shape", R"(A surface. <mesh> and <shape> mean the same.
+
+It stands in <scene>, and may hold one <bsdf> (default: diffuse, albedo 0.5) and one <emitter type="area">.
+)"},
+    {"bsdf", R"(What a surface is made of.
+
+It stands in the <mesh> or <shape> whose surface it is, and may hold a <texture> for each parameter that takes one.
+)"},
+    {"texture", R"(A value that differs from point to point of a surface, over its uv coordinates.
+
+It stands in a <bsdf> or <emitter>, with the parameter that it replaces as its name: <texture name="albedo" ...>. Where
+only one parameter can be a texture, the name may be left out.
+)"},
+    {"emitter", R"(What gives light.
+
+'area' stands in the <mesh> or <shape> that shines; all others stand in <scene>.
+)"},
+    {"camera", R"(Where the picture is taken from, and its size.
+
+One stands in <scene>. It may hold one <rfilter>.
+)"},
+    {"rfilter", R"(The reconstruction filter: how samples make pixels.
+
+It stands in <camera>; without one: gaussian.
+)"},
+    {"sampler", R"(Where random numbers come from, and how many samples a pixel gets.
+
+It stands in <scene>; without one: independent, 1 sample.
+)"},
+    {"integrator", R"(How light is gathered.
+
+One stands in <scene>.
+)"},
+};
+
+} // namespace
+
+std::string_view ElementManual::title() const
+{
+    return names.substr(0, names.find(' '));
+}
+
+bool ElementManual::is_about(std::string_view name) const
+{
+    for (std::string_view rest = names; !rest.empty();) {
+        const std::string_view one = rest.substr(0, rest.find(' '));
+        if (one == name) return true;
+        rest.remove_prefix(std::min(one.size() + 1, rest.size()));
+    }
+    return false;
+}
+
+std::span<const ElementManual> element_manuals()
+{
+    return manuals;
+}
+
+const ElementManual* find_element_manual(std::string_view name)
+{
+    for (const ElementManual& manual : manuals)
+        if (manual.is_about(name)) return &manual;
+    return nullptr;
+}
+
+} // namespace plumb

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+
+// What others call things: the table points to what there is, and the messages are what a user sees.
+
+#include "core/lower_case.h"
+#include "scene_file/catalog.h"
+#include "scene_file/foreign_names.h"
+#include "scene_file/placement.h"
+#include "scene_file/values.h"
+#include "support/catch.h"
+#include "support/scene_text.h"
+
+#include <set>
+
+using namespace plumb;
+using namespace plumb::test;
+
+namespace {
+
+bool is_type(std::string_view kind, std::string_view name)
+{
+    const auto& types = known_types();
+    return std::any_of(types.begin(), types.end(), [&](const TypeInfo& type) {
+        return (kind.empty() || type.kind == kind) && type.name == name;
+    });
+}
+
+bool is_tag(std::string_view tag)
+{
+    const std::vector<std::string_view> tags = all_tags();
+    return std::find(tags.begin(), tags.end(), tag) != tags.end();
+}
+
+std::string folded(std::string_view name)
+{
+    std::string text;
+    for (const char c : name)
+        if (c != '_' && c != '-' && c != ' ') text += lower_case(c);
+    return text;
+}
+
+} // namespace
+
+TEST_CASE("the table of foreign names points to what there is", "[unit][foreign_names]")
+{
+    std::set<std::string> seen;
+    for (const ForeignName& entry : foreign_names()) {
+        CAPTURE(entry.kind, entry.name);
+        const bool is_of_tags = entry.kind == "tag";
+        CHECK((is_of_tags || is_tag(entry.kind)));
+        CHECK(seen.insert(std::string(entry.kind) + " " + folded(entry.name)).second);
+        // It must not hide a name of ours.
+        CHECK_FALSE((is_of_tags ? is_tag(entry.name) : is_type(entry.kind, entry.name)));
+        CHECK(entry.ours.empty() != entry.advice.empty());
+        if (!entry.ours.empty()) CHECK((is_of_tags ? is_tag(entry.ours) : is_type(entry.kind, entry.ours)));
+        // What advice quotes is a type, and what stands in brackets is an element.
+        for (std::size_t i = entry.advice.find('\''); i != entry.advice.npos;
+             i = entry.advice.find('\'', i)) {
+            const std::size_t end = entry.advice.find('\'', i + 1);
+            if (end == entry.advice.npos) break; // an apostrophe
+            CHECK(is_type("", entry.advice.substr(i + 1, end - i - 1)));
+            i = end + 1;
+        }
+        for (std::size_t i = entry.advice.find('<'); i != entry.advice.npos;
+             i = entry.advice.find('<', i + 1)) {
+            const std::size_t end = entry.advice.find_first_of(" >", i);
+            CHECK(is_tag(entry.advice.substr(i + 1, end - i - 1)));
+        }
+    }
+}
+
+TEST_CASE("well-known names of other renderers are answered", "[unit][foreign_names]")
+{
+    CHECK(foreign_type("integrator", "mipath") == "integrator 'mipath' is 'path_mis' here");
+    CHECK(foreign_type("integrator", "midirect") == "integrator 'midirect' is 'direct_mis' here");
+    CHECK(foreign_type("integrator", "bsdfpath") == "integrator 'bsdfpath' is 'path_mats' here");
+    CHECK(foreign_type("integrator", "path_tracer_recursive") ==
+          "integrator 'path_tracer_recursive' is 'path_mis' here");
+    CHECK(foreign_type("integrator", "direct_lighting") ==
+          "integrator 'direct_lighting' is 'direct_mis' here");
+    for (const char* name : {"vol_path_mis", "volpath", "volPathTracer", "vol_path", "vol_path_mats"})
+        CHECK(foreign_type("integrator", name) ==
+              std::string("integrator '") + name +
+                  "' is not supported; Plumb renders surfaces in a vacuum only; use 'path_mis'");
+    CHECK(foreign_type("bsdf", "glass") == "bsdf 'glass' is 'dielectric' here");
+    CHECK(foreign_type("bsdf", "disneyBSDF") ==
+          "bsdf 'disneyBSDF' is not supported; use 'roughsubstrate' or 'roughconductor'");
+    CHECK(foreign_type("emitter", "env_map") == "emitter 'env_map' is 'environment' here");
+    CHECK(foreign_type("shape", "cube") == "shape 'cube' is not supported; use an 'obj' mesh");
+    CHECK(foreign_tag("rgb") == "<rgb> is <color> here");
+    CHECK_FALSE(foreign_type("bsdf", "mipath"));
+    CHECK_FALSE(foreign_type("integrator", "path_miss"));
+}
+
+TEST_CASE("scenes and options with foreign names are told what to write", "[unit][foreign_names]")
+{
+    const std::string scene = "<scene dialect='plumb'><integrator type='mipath'/>" + camera + "</scene>";
+    CHECK_THAT(errors(scene),
+               ContainsSubstring("scene.xml:1:42: error: integrator 'mipath' is 'path_mis' here\n"));
+    CHECK_THAT(
+        errors(
+            start +
+            "<mesh type='sphere'><bsdf type='diffuse'><rgb name='albedo' value='1'/></bsdf></mesh></scene>"),
+        ContainsSubstring("error: <rgb> is <color> here\n"));
+    LoadOptions options;
+    options.integrator = "mipath";
+    CHECK(errors(start + "</scene>", options) ==
+          "error: --integrator mipath: integrator 'mipath' is 'path_mis' here");
+}
