@@ -20,7 +20,7 @@ std::string scene(const std::string& more)
 {
     return R"(<scene dialect="plumb"><integrator type="path_mis"/>
 <camera type="perspective"><integer name="width" value="8"/><integer name="height" value="6"/></camera>
-<emitter type="directional"><vector name="direction" value="0,0,1"/></emitter>
+<emitter type="point"><point name="position" value="0,0,3"/></emitter>
 )" + more + "\n</scene>\n";
 }
 

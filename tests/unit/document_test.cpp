@@ -104,7 +104,8 @@ TEST_CASE("what is not XML", "[unit][document]")
 {
     CHECK_THAT(parse_error(""), ContainsSubstring("1:1: the file has no root element"));
     CHECK_THAT(parse_error("  \n<!-- nothing -->\n"), ContainsSubstring("the file has no root element"));
-    CHECK_THAT(parse_error("v 1 2 3\n"), ContainsSubstring("1:1: unexpected text before the root element"));
+    CHECK_THAT(parse_error("Dear renderer\n"),
+               ContainsSubstring("1:1: unexpected text before the root element"));
     CHECK_THAT(parse_error("<scene/>\n x"),
                ContainsSubstring("2:2: unexpected text after the end of the root"));
     CHECK_THAT(parse_error("<scene/><scene/>"), ContainsSubstring("1:9: <scene> is a second root element"));

@@ -29,7 +29,7 @@ std::string example_lines(std::string_view manual)
 // The objects in it, each with all that is inside.
 std::vector<std::string> examples_in(const std::string& lines)
 {
-    const std::string text = "<x>" + lines + "</x>";
+    const std::string text = "<scene>" + lines + "</scene>";
     Diagnostics diagnostics;
     const auto root = parse_document("manual.xml", text, diagnostics);
     for (const Diagnostic& diagnostic : diagnostics.all()) FAIL(diagnostic.text());
@@ -37,7 +37,8 @@ std::vector<std::string> examples_in(const std::string& lines)
     for (std::size_t i = 0; i < root->children.size(); ++i) {
         const bool is_last = i + 1 == root->children.size();
         const std::size_t begin = root->children[i].tag_offset;
-        const std::size_t end = is_last ? text.size() - 4 : root->children[i + 1].tag_offset;
+        const std::size_t end =
+            is_last ? text.size() - std::string_view("</scene>").size() : root->children[i + 1].tag_offset;
         examples.push_back(text.substr(begin, end - begin));
     }
     return examples;
@@ -91,20 +92,22 @@ TEST_CASE("every example of the manual is a part of a scene that loads", "[unit]
             CAPTURE(example);
             const TempFolder folder;
             Diagnostics diagnostics;
-            const auto element = parse_document("manual.xml", example, diagnostics);
-            REQUIRE(element);
-            make_files(*element, folder.path());
+            const auto scene = parse_document("manual.xml", "<scene>" + example + "</scene>", diagnostics);
+            REQUIRE(scene);
+            REQUIRE(scene->children.size() == 1);
+            const Element& element = scene->children[0];
+            make_files(element, folder.path());
             std::string object = example;
             std::string kind(type.kind);
             // An example may show its type where it stands, a lamp in its shape say.
-            if (element->tag == "mesh" || element->tag == "shape") kind = "shape";
-            if (element->tag == "bsdf") kind = "bsdf";
-            if (element->tag == "camera") kind = "camera";
+            if (element.tag == "mesh" || element.tag == "shape") kind = "shape";
+            if (element.tag == "bsdf") kind = "bsdf";
+            if (element.tag == "camera") kind = "camera";
             if (kind == "texture") { // whatever it is the texture of
                 const std::size_t name = object.find("name=\"");
                 REQUIRE(name != std::string::npos);
             }
-            const bool is_area = element->tag == "emitter" && element->value("type") == "area";
+            const bool is_area = element.tag == "emitter" && element.value("type") == "area";
             const LoadedScene loaded =
                 load_scene(folder.write("scene.xml", scene_with(kind, object, is_area)));
             CHECK(loaded.dialect.name == DialectName::plumb);

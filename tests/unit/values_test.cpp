@@ -6,12 +6,15 @@ using namespace plumb;
 
 namespace {
 
+constexpr int scene_tag = 7; // characters before the text
+
 Element parse(const std::string& text)
 {
     Diagnostics diagnostics;
-    auto element = parse_document("scene.xml", text, diagnostics);
-    REQUIRE(element);
-    return *element;
+    const auto scene = parse_document("scene.xml", "<scene>" + text + "</scene>", diagnostics);
+    REQUIRE(scene);
+    REQUIRE(scene->children.size() == 1);
+    return scene->children[0];
 }
 
 // Of <float v="..."/>.
@@ -107,8 +110,8 @@ TEST_CASE("properties", "[unit][values]")
     CHECK(color->tag == "color");
     CHECK(color->text == "1 2 3");
     CHECK(std::get<std::vector<double>>(color->value) == std::vector<double>{1, 2, 3});
-    CHECK(color->name_at.column == 14);
-    CHECK(color->value_at.column == 29);
+    CHECK(color->name_at.column == 14 + scene_tag);
+    CHECK(color->value_at.column == 29 + scene_tag);
     CHECK_FALSE(color->broken);
     const auto vec2 = read_property(parse("<vector name='scale' value='1 2'/>"), diagnostics);
     CHECK(std::get<std::vector<double>>(vec2->value).size() == 2);
