@@ -22,7 +22,7 @@ HEADERS = {
     "core": "dialect distribution error fixed_point fresnel hash image intersection mean_and_variance mesh microfacet "
             "sampling statistics version",
     "interfaces": "bsdf camera emitter filter integrator params sampler shape surface texture",
-    "scene": "light_tree scene tracer",
+    "scene": "instruction_set light_tree scene tracer",
     "render": "evidence film render sample_set state_file stop_rules",
     "check": "check",
     "scene_file": "load scene_file suite test_file",

@@ -11,6 +11,7 @@
 // random numbers from a 64-bit generator. The scene's triangles are read through the library; its spheres are left out.
 // Prints one line of JSON.
 
+#include "plumb/instruction_set.h"
 #include "plumb/scene_file.h"
 #include "scene/float_mode.h"
 
@@ -199,7 +200,7 @@ int run(int argc, char** argv)
     if (triangles.lamps.empty()) throw Error("embree_loop needs a lamp made of triangles");
     triangles.positions.reserve(triangles.positions.size() + 2); // Embree reads past the last vertex
 
-    RTCDevice device = rtcNewDevice("isa=avx2");
+    RTCDevice device = rtcNewDevice(default_instruction_set().embree_config);
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                triangles.positions.data(), 0, sizeof(Vec3f), triangles.positions.size());

@@ -5,6 +5,7 @@
 
 #include "plumb/bsdf.h"
 #include "plumb/emitter.h"
+#include "plumb/instruction_set.h"
 #include "plumb/light_tree.h"
 #include "plumb/shape.h"
 
@@ -22,9 +23,8 @@ struct SceneObject {
 };
 
 struct SceneOptions {
-    bool emitters_absorb = false; // paths end at emitters
-    std::string instruction_set =
-        "avx2"; // sse2, sse4.2, avx, avx2 or avx512: Embree traces with this and no other
+    bool emitters_absorb = false;                                // paths end at emitters
+    std::string instruction_set{default_instruction_set().name}; // Embree traces with this and no other
 };
 
 // Bytes that a scene takes as long as it is there; and what Embree took at most while it built.

@@ -5,6 +5,7 @@
 
 #include "plumb/dialect.h"
 #include "plumb/error.h"
+#include "plumb/instruction_set.h"
 #include "plumb/render.h"
 
 #include <filesystem>
@@ -26,9 +27,9 @@ struct LoadOptions {
     std::optional<std::string> sampler;
     std::optional<std::uint64_t> samples_per_pixel;
     std::optional<Vec2i> resolution;
-    std::optional<std::uint64_t> kept_pixels; // of a crop: only these must fit into memory
-    std::string instruction_set = "avx2";
-    bool lenient = false; // unknown parameters are warnings
+    std::optional<std::uint64_t> kept_pixels;                    // of a crop: only these must fit into memory
+    std::string instruction_set{default_instruction_set().name}; // one of instruction_sets()
+    bool lenient = false;                                        // unknown parameters are warnings
 };
 
 // A file that was read, and the hash of its bytes: 32 hex digits.

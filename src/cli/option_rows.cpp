@@ -3,6 +3,7 @@
 
 #include "cli/values.h"
 #include "cli/verbs.h"
+#include "plumb/instruction_set.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -61,6 +62,19 @@ void add_limits(Options& options, Name name, Text text)
         options.compare.how.thresholds.push_back({metric, limit});
     }
 }
+
+// "of Embree: sse2, sse4.2, avx, avx2 or avx512 (default avx2)", on the processors that have these.
+std::string words_of_isa()
+{
+    std::string words = "of Embree: ";
+    const std::vector<std::string_view> names = instruction_set_names();
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        if (i > 0) words += i + 1 < names.size() ? ", " : " or ";
+        words += names[i];
+    }
+    return fmt::format("{} (default {})", words, default_instruction_set().name);
+}
+const std::string isa_help = words_of_isa();
 
 // Every option, in the order of --help.
 const OptionRow rows[] = {
@@ -184,10 +198,8 @@ const OptionRow rows[] = {
     {Topic::running, rendering | test_only | agree_or_race | batch_only, "-t,--threads", "N",
      "how many (default: all there are)",
      [](Options& o, Name n, Text t) { o.render.threads = static_cast<int>(parse_integer(n, t, 1, 1024)); }},
-    {Topic::running, loads, "--isa", "NAME", "of Embree: sse2, sse4.2, avx, avx2 or avx512 (default avx2)",
-     [](Options& o, Name n, Text t) {
-         o.load.instruction_set = parse_word(n, t, {"sse2", "sse4.2", "avx", "avx2", "avx512"});
-     }},
+    {Topic::running, loads, "--isa", "NAME", isa_help.c_str(),
+     [](Options& o, Name n, Text t) { o.load.instruction_set = parse_word(n, t, instruction_set_names()); }},
     {Topic::running, loads | rerun_only | merge_only | compare_only | batch_only, "--quiet", "",
      "print nothing but errors", [](Options& o, Name, Text) { o.quiet = true; }},
     {Topic::running, loads_scene | rerun_only, "--verbose", "", "print facts about the scene",

@@ -6,6 +6,7 @@
 
 #include "core/elided.h"
 #include "plumb/error.h"
+#include "plumb/instruction_set.h"
 #include "plumb/intersection.h"
 
 #include <cstring>
@@ -15,10 +16,8 @@
 
 #if PLUMB_EMBREE_MAJOR >= 4
 #include <embree4/rtcore.h>
-using RayQueryContext = RTCRayQueryContext;
 #else
 #include <embree3/rtcore.h>
-using RayQueryContext = RTCIntersectContext;
 #endif
 
 namespace plumb {
@@ -27,28 +26,11 @@ namespace {
 // Embree accepts hits at exactly t_min; ours is an open interval, and a ray that starts in a plane must not meet it.
 constexpr float smallest_t = std::numeric_limits<float>::min();
 
-struct InstructionSet {
-    std::string_view name; // ours
-    const char* embree_name;
-    bool supported;
-};
-
-InstructionSet find_instruction_set(const std::string& name)
+const InstructionSet& find_instruction_set(const std::string& name)
 {
-#if defined(__x86_64__)
-    const InstructionSet known[] = {
-        {"sse2", "sse2", __builtin_cpu_supports("sse2") != 0},
-        {"sse4.2", "sse4.2", __builtin_cpu_supports("sse4.2") != 0},
-        {"avx", "avx", __builtin_cpu_supports("avx") != 0},
-        {"avx2", "avx2", __builtin_cpu_supports("avx2") != 0},
-        {"avx512", "avx512",
-         __builtin_cpu_supports("avx512dq") != 0 && __builtin_cpu_supports("avx512vl") != 0},
-    };
-    for (const InstructionSet& set : known)
+    for (const InstructionSet& set : instruction_sets())
         if (set.name == name) return set;
-#endif
-    throw Error(
-        fmt::format("unknown instruction set '{}'; known are sse2, sse4.2, avx, avx2 and avx512", name));
+    throw Error(fmt::format("unknown instruction set '{}'{}", name, way_out(name, instruction_set_names())));
 }
 
 // The last message of Embree's error callback, for the exception that follows.
@@ -107,15 +89,6 @@ RTCRay embree_ray(const Ray& ray)
 Ray our_ray(const RTCRay& r)
 {
     return {{r.org_x, r.org_y, r.org_z}, {r.dir_x, r.dir_y, r.dir_z}, r.tnear, r.tfar};
-}
-
-void init_context(RayQueryContext& context)
-{
-#if PLUMB_EMBREE_MAJOR >= 4
-    rtcInitRayQueryContext(&context);
-#else
-    rtcInitIntersectContext(&context);
-#endif
 }
 
 // The sphere as Embree's user geometry: tested in our own double-precision arithmetic, one ray at a time.
@@ -206,11 +179,11 @@ private:
 
 Scene::Accel::Accel(const std::vector<SceneObject>& objects, const std::string& instruction_set)
 {
-    const InstructionSet set = find_instruction_set(instruction_set);
-    if (!set.supported)
+    const InstructionSet& set = find_instruction_set(instruction_set);
+    if (!set.runs_here())
         throw Error(
             fmt::format("this processor cannot run Embree with {}; choose another with --isa", set.name));
-    device_ = rtcNewDevice(fmt::format("isa={}", set.embree_name).c_str());
+    device_ = rtcNewDevice(set.embree_config);
     // The processor can run it, so that only the machine's resources are left as a cause.
     if (device_ == nullptr)
         throw Error(fmt::format(
@@ -252,8 +225,8 @@ inline Scene::Accel::Hit Scene::Accel::intersect(const Ray& ray) const
 #if PLUMB_EMBREE_MAJOR >= 4
     rtcIntersect1(scene_, &ray_hit);
 #else
-    RayQueryContext context;
-    init_context(context);
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
     rtcIntersect1(scene_, &context, &ray_hit);
 #endif
     if (ray_hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
@@ -266,8 +239,8 @@ inline bool Scene::Accel::occluded(const Ray& ray) const
 #if PLUMB_EMBREE_MAJOR >= 4
     rtcOccluded1(scene_, &r);
 #else
-    RayQueryContext context;
-    init_context(context);
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
     rtcOccluded1(scene_, &context, &r);
 #endif
     return r.tfar < 0.f;

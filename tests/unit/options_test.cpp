@@ -2,6 +2,7 @@
 #include "cli/option_rows.h"
 #include "cli/options.h"
 #include "cli/verbs.h"
+#include "plumb/instruction_set.h"
 #include "support/catch.h"
 
 #include <cctype>
@@ -59,7 +60,7 @@ TEST_CASE("a scene alone leaves everything to the scene", "[unit][options]")
     CHECK_FALSE(options.load.samples_per_pixel);
     CHECK_FALSE(options.load.resolution);
     CHECK(options.load.definitions.empty());
-    CHECK(options.load.instruction_set == "avx2");
+    CHECK(options.load.instruction_set == default_instruction_set().name);
     CHECK_FALSE(options.load.lenient);
     CHECK(options.render.seed == 0);
     CHECK(options.render.threads == 0);
