@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: MIT
 # shellcheck shell=bash
-# Sourced by tools/run, tools/test and tools/check: installs what is missing, configures and builds.
-# Everything it says goes to stderr.
+# Sourced by the other scripts: installs what is missing, configures and builds. Everything it says goes to stderr.
 #
 # Environment:
 #   PLUMB_SKIP_INSTALL=1            do not look for packages: everything needed is there
@@ -81,12 +80,23 @@ install_packages() {
     fi
 }
 
+# Every file of the tree that git would keep, or, without git, every file outside the build folders; from the folder
+# above tools/, each ends with a zero.
+tree_files() (
+    cd -- "$plumb_root"
+    if command -v git >/dev/null && [[ $(git rev-parse --show-toplevel 2>/dev/null) -ef . ]]; then
+        git ls-files --cached --others --exclude-standard -z
+    else
+        find . -type d \( -name .git -o -name 'build*' -o -name __pycache__ \) -prune -o -type f -print0
+    fi
+)
+
 # build_folder PRESET: where CMakePresets.json builds it.
 build_folder() {
     case $1 in
         release) printf '%s\n' "$plumb_root/build" ;;
-        debug | asan) printf '%s\n' "$plumb_root/build-$1" ;;
-        *) die "unknown preset '$1': release, debug or asan" ;;
+        dev | debug | asan) printf '%s\n' "$plumb_root/build-$1" ;;
+        *) die "unknown preset '$1': release, dev, debug or asan" ;;
     esac
 }
 
