@@ -14,6 +14,7 @@ plumb_packages=(
     libembree-dev libopenimageio-dev libopenexr-dev libimath-dev
     libtinyobjloader-dev libpugixml-dev libtbb-dev libcli11-dev libfmt-dev catch2
 )
+[[ ${CXX:-} != clang++ ]] || plumb_packages+=(clang libclang-rt-dev)
 
 say() { printf 'plumb: %s\n' "$*" >&2; }
 die() { say "$@"; exit 1; }
