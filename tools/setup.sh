@@ -96,12 +96,12 @@ tree_files() (
 build_folder() {
     case $1 in
         release) printf '%s\n' "$plumb_root/build" ;;
-        dev | debug | asan) printf '%s\n' "$plumb_root/build-$1" ;;
-        *) die "unknown preset '$1': release, dev, debug or asan" ;;
+        dev | debug | asan | arm64) printf '%s\n' "$plumb_root/build-$1" ;;
+        *) die "unknown preset '$1': release, dev, debug, asan or arm64" ;;
     esac
 }
 
-# build PRESET [TARGET]: configures if that was never done or the tree has moved, and builds.
+# build PRESET [TARGET]: configures if that was never done, the tree has moved or the presets have changed, and builds.
 build() {
     local preset=$1 target=${2:-all} folder
     folder="$(build_folder "$preset")"
@@ -116,8 +116,10 @@ build() {
             say "$folder was configured for another folder; starting again"
             rm -rf -- "$cache" "$folder/CMakeFiles" "$folder/build.ninja"
         fi
-        if [[ ! -f $folder/build.ninja ]]; then
+        [[ -f $folder/build.ninja ]] ||
             say "configuring and building the '$preset' preset in $folder; this takes some minutes, once"
+        # Newer than a file that is missing, too. CMake itself would not notice that the presets have changed.
+        if [[ CMakePresets.json -nt $folder/build.ninja ]]; then
             quietly cmake --preset "$preset" 9>&- || die "configuring failed"
         fi
         quietly cmake --build "$folder" --target "$target" -- --quiet 9>&- || die "the build failed"
