@@ -56,6 +56,10 @@ void check_kills(int kills_wanted)
     REQUIRE(folder.run(with({"whole.exr"})).exit_code == 0);
     const std::string whole = read_bytes(folder / "whole.exr");
 
+    // LD_PRELOAD is a list: a space or a colon in the name of the build folder would end the name.
+    std::filesystem::create_symlink(PLUMB_KILLER, folder / "killer.so");
+    const std::string preload = "LD_PRELOAD=" + (folder / "killer.so").string();
+
     std::map<std::string, int> kills;
     int pictures = 0;
     for (int killed = 0; killed < kills_wanted;) {
@@ -64,8 +68,8 @@ void check_kills(int kills_wanted)
         const RunResult result =
             run_renderer(with({"a.exr", "--checkpoint", "c.exr", "--checkpoint-every", "0.02s", "--resume"}),
                          folder.path(), "", {},
-                         {"LD_PRELOAD=" PLUMB_KILLER, "ASAN_OPTIONS=verify_asan_link_order=0",
-                          "PLUMB_KILL=" + moment, "PLUMB_KILL_TRACE=" + (folder / "trace").string()});
+                         {preload, "ASAN_OPTIONS=verify_asan_link_order=0", "PLUMB_KILL=" + moment,
+                          "PLUMB_KILL_TRACE=" + (folder / "trace").string()});
         INFO(moment << ": " << result.err);
         if (result.exit_code == 128 + SIGKILL) {
             ++killed;
