@@ -5,7 +5,12 @@
 
 #include "plumb/error.h"
 
+#include <cstdlib>
+#include <exception>
 #include <new>
+#include <system_error>
+
+#include <unistd.h>
 
 namespace {
 
@@ -29,11 +34,21 @@ int complain(int code, const std::string& message)
     return code;
 }
 
+// Some libraries that OpenImageIO brings start threads as they are loaded, and end the program if they get none: of
+// liblog4cplus in Debian 13 that was seen. There is no exception to catch then. Where there is one, the fault is ours.
+[[noreturn]] void on_terminate()
+{
+    if (std::current_exception()) std::abort();
+    print_log("error: a library ended the program while it was loaded; there may be too little memory");
+    _exit(exit_code::error);
+}
+
 } // namespace
 
 int main(int argc, char** argv)
 {
     prepare_console();
+    std::set_terminate(on_terminate);
     Options options;
     try {
         options = parse_options({argv + (argc > 0), argv + argc});
@@ -51,6 +66,10 @@ int main(int argc, char** argv)
         return exit_code::error;
     } catch (const std::bad_alloc&) {
         return complain(exit_code::error, "not enough memory");
+    } catch (const std::system_error& error) {
+        const bool no_thread = error.code() == std::errc::resource_unavailable_try_again;
+        return complain(exit_code::error,
+                        no_thread ? "cannot start a thread; there may be too little memory" : error.what());
     } catch (const std::exception& error) {
         return complain(exit_code::error, error.what());
     }
