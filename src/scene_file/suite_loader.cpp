@@ -179,16 +179,15 @@ private:
     void add(SuiteEntry entry)
     {
         const std::string title = entry.title();
-        const auto same = std::find_if(entries_.begin(), entries_.end(),
-                                       [&](const SuiteEntry& other) { return other.title() == title; });
-        if (same == entries_.end()) {
+        const auto [same, is_new] = place_of_title_.emplace(title, entry.at);
+        if (is_new) {
             entries_.push_back(std::move(entry));
             return;
         }
         diagnostics_.error(entry.at, fmt::format("two entries write '{}.exr'; give one of them another name: "
                                                  R"(<render name="..." .../>)",
                                                  title));
-        diagnostics_.note(same->at, "the other one is here");
+        diagnostics_.note(same->second, "the other one is here");
     }
 
     bool check_name(const Element& element, const Attribute& name)
@@ -269,6 +268,7 @@ private:
     std::span<const std::string_view> settings_;
     Diagnostics& diagnostics_;
     std::vector<SuiteEntry> entries_;
+    std::map<std::string, SourceLocation> place_of_title_;
 };
 
 bool check_root(const Element& root, Diagnostics& diagnostics)
