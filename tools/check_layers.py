@@ -61,6 +61,7 @@ DOORS = {
     "tinyobjloader": (r"tiny_?obj", ["src/io/obj*.cpp"]),
     "pugixml": (r"pugi", ["src/scene_file/document*.cpp"]),
     "oneTBB": (r"(oneapi/)?tbb(/|\.h)", ["src/render/render*.cpp", "src/core/parallel*.cpp"]),
+    "OpenSSL": (r"openssl/", ["src/core/sha256.cpp"]),
     "CLI11": (r"CLI/", ["src/cli/options*.cpp"]),
     "Imath": (r"Imath", ["include/plumb/math.h", "include/plumb/transform.h"]),
 }

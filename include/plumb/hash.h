@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// A 128-bit hash of bytes, to tell whether two pictures were made from the same files. Not for secrets.
+// Hashes of bytes: SHA-256 where people compare it with that of other programs, a fast one of 128 bits where Plumb alone
+// does and nobody is to be kept from forging it.
 
 #include <cstdint>
 #include <filesystem>
@@ -33,5 +34,9 @@ private:
 
 // Of the bytes of the files, one after the other; empty if one cannot be read.
 std::string hash_of_files(const std::vector<std::filesystem::path>& files);
+
+// SHA-256 as `sha256sum` prints it: 64 hexadecimal digits.
+std::string sha256(std::string_view bytes);
+std::string sha256_of_file(const std::filesystem::path& file); // empty if it cannot be read
 
 } // namespace plumb

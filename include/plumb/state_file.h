@@ -20,6 +20,8 @@
 
 #include "plumb/render.h"
 
+#include <optional>
+
 namespace plumb {
 
 // What the file will hold. Throws Error, with the reason, if memory is short.
@@ -33,5 +35,8 @@ struct StateFile {
 
 // Throws Error, "cannot go on from 'PATH': " and the reason.
 StateFile read_state(const std::filesystem::path& path);
+
+// The caller's header of the file alone, unchecked; nothing if it is no state file.
+std::optional<Metadata> read_state_header(const std::filesystem::path& path);
 
 } // namespace plumb

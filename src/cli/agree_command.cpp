@@ -7,6 +7,8 @@
 #include "cli/outputs.h"
 #include "cli/progress.h"
 
+#include "core/visible_text.h"
+
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -80,7 +82,7 @@ int agree_command(const Options& options)
     const std::vector<Pair> pairs = compare_pairs(estimates, options.compare.how);
     const CompareOutcome outcome = outcome_of(pairs);
     if (!options.quiet && options.json != "-") {
-        print_output(options.subject + "\n");
+        print_output(visible_text(options.subject) + "\n");
         for (const Estimate& estimate : estimates)
             print_output(
                 fmt::format("  {}: {} samples per pixel\n", estimate.name, estimate.samples_per_pixel));

@@ -5,6 +5,8 @@
 #include "cli/exit_codes.h"
 #include "cli/text_file.h"
 
+#include "core/visible_text.h"
+
 #include <algorithm>
 #include <chrono>
 #include <fmt/format.h>
@@ -35,12 +37,12 @@ std::vector<BatchJob> chosen(const std::vector<BatchJob>& jobs, const Options& o
 // References, too, unless they are to be made.
 std::vector<fs::path> files_to_keep(const std::vector<BatchJob>& jobs, const Options& options)
 {
-    std::vector<fs::path> files = {options.subject};
+    std::set<fs::path> files = {options.subject};
     for (const BatchJob& job : jobs) {
-        files.push_back(job.entry.scene);
-        if (!options.batch.update && !job.entry.reference.empty()) files.push_back(job.entry.reference);
+        files.insert(job.entry.scene);
+        if (!options.batch.update && !job.entry.reference.empty()) files.insert(job.entry.reference);
     }
-    return files;
+    return {files.begin(), files.end()};
 }
 
 // Runs one job after the other, with a line on the console for each, until a signal comes, or one fails if that is asked for.
@@ -104,7 +106,7 @@ std::vector<BatchJob> reference_makers(const std::vector<BatchJob>& jobs,
 int update(const Options& options, const std::vector<BatchJob>& jobs,
            const std::vector<BatchJob>& chosen_jobs)
 {
-    const std::vector<fs::path> kept = files_to_keep(jobs, options);
+    const KeptFiles kept(files_to_keep(jobs, options));
     const BatchRun run = run_all(reference_makers(jobs, chosen_jobs), options,
                                  [&](const BatchJob& job) { return make_reference(job, options, kept); });
     if (!options.quiet) print_output(summary_text(run) + "\n");
@@ -134,7 +136,7 @@ int batch_command(const Options& options)
     make_folder(folder);
     for (const char* report : {"report.json", "junit.xml", "summary.md", "report.html", "state.txt"})
         check_text_path(folder / report);
-    BatchContext context{options, folder, BatchState(folder), {}, files_to_keep(jobs, options)};
+    BatchContext context{options, folder, BatchState(folder), {}, KeptFiles(files_to_keep(jobs, options))};
     for (const BatchJob& job : jobs)
         if (job.entry.settings.contains("spp")) context.titles.insert(job.entry.title());
 
@@ -143,7 +145,8 @@ int batch_command(const Options& options)
     run.folder = folder.string();
     write_reports(run);
     if (!options.quiet)
-        print_output(fmt::format("{}; reports: {}\n", summary_text(run), (folder / "report.html").string()));
+        print_output(fmt::format("{}; reports: {}\n", summary_text(run),
+                                 visible_text((folder / "report.html").string())));
     return run.exit_code();
 }
 

@@ -52,7 +52,8 @@ int check_command(const Options& options)
     const std::vector<Doubt> doubts = find_doubts(scene.job);
     const bool is_clean = doubts.empty() && scene.warnings.empty();
     for (const Doubt& doubt : doubts)
-        print_output(fmt::format("{}{}{}\n", doubt.object, doubt.object.empty() ? "" : ": ", doubt.text));
+        print_output(fmt::format("{}{}{}\n", visible_text(doubt.object), doubt.object.empty() ? "" : ": ",
+                                 visible_text(doubt.text)));
     if (!options.quiet) {
         print_output(memory + "\n");
         if (is_clean) print_output("nothing is wrong or doubtful\n");

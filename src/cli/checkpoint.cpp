@@ -26,8 +26,7 @@ bool is_there(const fs::path& path)
 // there is an instant without the last generation, but with this one.
 void keep_as(const fs::path& file, const fs::path& name)
 {
-    fs::path other = name;
-    other.replace_filename("." + name.filename().string() + ".new");
+    const fs::path other = unfinished_name(name, "previous");
     std::error_code failed;
     fs::remove(other, failed);
     fs::create_hard_link(file, other, failed);
@@ -44,6 +43,24 @@ fs::path previous_generation(const fs::path& checkpoint)
 {
     fs::path path = checkpoint;
     return path.replace_filename(checkpoint.stem().string() + ".previous" + checkpoint.extension().string());
+}
+
+std::optional<fs::path> generation_there(const fs::path& checkpoint)
+{
+    for (const fs::path& generation : {checkpoint, previous_generation(checkpoint)})
+        if (is_there(generation)) return generation;
+    return std::nullopt;
+}
+
+void keep_previous(const fs::path& checkpoint, const Metadata& header)
+{
+    const fs::path previous = previous_generation(checkpoint);
+    if (!is_there(previous)) return;
+    const std::optional<Metadata> there = read_state_header(previous);
+    if (!there || !sample_changes(*there, header).empty())
+        throw Error(fmt::format("cannot write '{}': the state before is kept as '{}', and that is {}",
+                                checkpoint.string(), previous.string(),
+                                there ? "the state of another rendering" : "another file"));
 }
 
 void save_checkpoint(const fs::path& path, const RenderState& state, Vec2i resolution, const Metadata& header)

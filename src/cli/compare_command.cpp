@@ -6,6 +6,7 @@
 #include "cli/outputs.h"
 #include "core/lower_case.h"
 
+#include "core/visible_text.h"
 #include "plumb/compare.h"
 #include "plumb/error.h"
 
@@ -46,7 +47,7 @@ int compare_command(const Options& options)
     std::vector<std::string> images;
     if (!options.compare.difference.empty()) images.push_back(options.compare.difference);
     check_outputs(images, options.json);
-    keep_inputs({options.subject, options.subjects[1]}, images, options.json,
+    keep_inputs(KeptFiles({options.subject, options.subjects[1]}), images, options.json,
                 "it is one of the pictures to compare");
     const Image a = read_image(options.subject, true);
     const Image b = read_image(options.subjects[1], true);
@@ -59,8 +60,8 @@ int compare_command(const Options& options)
     const Comparison comparison = compare(a, b, how);
     write_reports(options, comparison, a, b);
     if (!options.quiet && options.json != "-")
-        print_output("A " + options.subject + "\nB " + options.subjects[1] + "\n" +
-                     comparison_text(comparison, how));
+        print_output("A " + visible_text(options.subject) + "\nB " + visible_text(options.subjects[1]) +
+                     "\n" + comparison_text(comparison, how));
     return exit_code_of(comparison.outcome);
 }
 

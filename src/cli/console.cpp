@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "cli/console.h"
 
+#include "core/visible_text.h"
 #include "plumb/error.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -45,14 +47,26 @@ void prepare_console()
     }
 }
 
-void print_log(std::string_view text)
+void print_log(std::string_view line)
 {
-    write_error(std::string(text) + "\n");
+    write_error(visible_text(line) + "\n");
+}
+
+void print_log(const Diagnostic& diagnostic)
+{
+    write_error(diagnostic.text() + "\n");
 }
 
 void print_output(std::string_view text)
 {
-    write_all(stdout, text, output_problem);
+    std::string shown;
+    while (!text.empty()) {
+        const std::size_t end = std::min(text.find_first_of("\n\t"), text.size());
+        shown += visible_text(text.substr(0, end));
+        if (end < text.size()) shown += text[end];
+        text.remove_prefix(std::min(end + 1, text.size()));
+    }
+    write_all(stdout, shown, output_problem);
 }
 
 void finish_output()

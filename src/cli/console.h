@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Standard output and standard error. Nothing else in src/cli prints.
+// Standard output and standard error. Nothing else in src/cli prints. Names and texts that others chose are part of what is
+// printed: nothing that would steer a terminal gets through here (visible_text.h).
+
+#include "plumb/error.h"
 
 #include <string_view>
 
@@ -11,9 +14,11 @@ namespace plumb {
 // closed stays closed to us instead of becoming the first file that is opened.
 void prepare_console();
 
-void print_log(std::string_view text);    // to standard error, with a line end; never fails
-void print_output(std::string_view text); // to standard output, as it is
-void finish_output();                     // throws Error if standard output could not take everything
+void print_log(std::string_view line); // to standard error, as one line, whatever it contains; never fails
+void print_log(const Diagnostic& diagnostic);
+// To standard output. Line ends and tabs stay; so texts of others in it should be visible_text() before, to be one line.
+void print_output(std::string_view text);
+void finish_output(); // throws Error if standard output could not take everything
 
 // Standard error is a terminal that can redraw a line.
 bool log_is_terminal();

@@ -47,6 +47,22 @@ double seconds_per_sample(const RenderJob& job, RenderOptions options)
     return std::max(render(job, options).seconds, 1e-3) / static_cast<double>(few);
 }
 
+namespace {
+
+// Two pictures of the same bits are the same. Two estimators whose pictures are the same without a pixel that tells anything
+// of either, as black ones do not, need not agree.
+void doubt_if_untested(Comparison& comparison)
+{
+    Significance& found = comparison.significance;
+    if (!comparison.identical || found.untested < found.pixels) return;
+    found.finding = Finding::undecided;
+    found.reason = comparison.metrics.mean_a == 0.0 ? "both pictures are black: no sample has found any light"
+                                                    : "no sample of either tells of any noise";
+    comparison.outcome = CompareOutcome::undecided;
+}
+
+} // namespace
+
 std::vector<Pair> compare_pairs(const std::vector<Estimate>& estimates, const CompareOptions& options)
 {
     CompareOptions how = options;
@@ -57,6 +73,7 @@ std::vector<Pair> compare_pairs(const std::vector<Estimate>& estimates, const Co
         for (std::size_t j = i + 1; j < estimates.size(); ++j)
             pairs.push_back(
                 {estimates[i], estimates[j], compare(estimates[i].image, estimates[j].image, how)});
+    for (Pair& pair : pairs) doubt_if_untested(pair.comparison);
     return pairs;
 }
 

@@ -57,7 +57,7 @@ void print_value(const std::string& name, const std::vector<float>& values)
 int info_command(const Options& options)
 {
     const Image image = read_image(options.subject, false);
-    print_output(options.subject + "\n");
+    print_output(visible_text(options.subject) + "\n");
     print_row("size", fmt::format("{} x {}", image.full_width(), image.full_height()));
     const PixelRect& window = image.data_window();
     if (window != PixelRect{0, 0, image.full_width(), image.full_height()})

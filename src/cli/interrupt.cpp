@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cli/interrupt.h"
 
+#include <array>
 #include <atomic>
 #include <csignal>
 #include <unistd.h>
@@ -12,34 +13,40 @@ namespace {
 std::atomic<int> noted = 0;
 static_assert(std::atomic<int>::is_always_lock_free); // so that a signal handler may use it
 
-struct sigaction before_interrupt;
-struct sigaction before_terminate;
+// Those by hand first.
+constexpr std::array numbers = {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1, SIGXCPU};
+constexpr std::size_t count_by_hand = 2;
+std::array<struct sigaction, numbers.size()> before;
+std::size_t caught = 0; // of them
 
 extern "C" void note_signal(int number)
 {
     int none = 0;
-    if (!noted.compare_exchange_strong(none, number)) _exit(128 + none);
+    if (noted.compare_exchange_strong(none, number)) return;
+    if (number == SIGINT || number == SIGTERM || number == SIGQUIT) _exit(128 + none);
 }
 
 } // namespace
 
-InterruptGuard::InterruptGuard()
+InterruptGuard::InterruptGuard(Interruption kind)
 {
     noted = 0;
+    caught = kind == Interruption::by_hand ? count_by_hand : numbers.size();
     struct sigaction action {};
     action.sa_handler = note_signal;
     action.sa_flags = SA_RESTART;
     sigemptyset(&action.sa_mask);
-    sigaction(SIGINT, &action, &before_interrupt);
-    sigaction(SIGTERM, &action, &before_terminate);
-    // A shell starts what runs in the background with SIGINT ignored, and means it.
-    if (before_interrupt.sa_handler == SIG_IGN) sigaction(SIGINT, &before_interrupt, nullptr);
+    for (std::size_t i = 0; i < caught; ++i) {
+        sigaction(numbers[i], nullptr, &before[i]);
+        // A shell starts what runs in the background with SIGINT ignored, nohup with SIGHUP, and they mean it. But whoever
+        // sends SIGTERM wants an end.
+        if (before[i].sa_handler != SIG_IGN || numbers[i] == SIGTERM) sigaction(numbers[i], &action, nullptr);
+    }
 }
 
 InterruptGuard::~InterruptGuard()
 {
-    sigaction(SIGINT, &before_interrupt, nullptr);
-    sigaction(SIGTERM, &before_terminate, nullptr);
+    for (std::size_t i = 0; i < caught; ++i) sigaction(numbers[i], &before[i], nullptr);
 }
 
 int InterruptGuard::signal()

@@ -11,19 +11,22 @@ namespace plumb {
 std::string json_string(std::string_view text)
 {
     std::string result = "\"";
-    for (const char c : valid_utf8(text)) {
-        switch (c) {
-        case '"': result += "\\\""; break;
-        case '\\': result += "\\\\"; break;
-        case '\n': result += "\\n"; break;
-        case '\r': result += "\\r"; break;
-        case '\t': result += "\\t"; break;
-        default:
-            if (static_cast<unsigned char>(c) < 0x20)
-                result += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
-            else
-                result += c;
-        }
+    const std::string valid = valid_utf8(text);
+    for (std::string_view rest = valid; !rest.empty();) {
+        const std::string_view character = rest.substr(0, utf8_length(rest));
+        rest.remove_prefix(character.size());
+        if (character == "\"" || character == "\\")
+            result.append("\\").append(character);
+        else if (character == "\n")
+            result += "\\n";
+        else if (character == "\r")
+            result += "\\r";
+        else if (character == "\t")
+            result += "\\t";
+        else if (steers(character)) // a report may go to a terminal; none is beyond 16 bits
+            result += fmt::format("\\u{:04x}", static_cast<std::uint32_t>(code_point(character)));
+        else
+            result += character;
     }
     return result + "\"";
 }

@@ -62,7 +62,7 @@ LoadedScene load_and_log(const Options& options)
     }
     LoadedScene scene = load_scene(path, load_options(options));
     if (options.quiet) return scene;
-    for (const Diagnostic& warning : scene.warnings) print_log(warning.text());
+    for (const Diagnostic& warning : scene.warnings) print_log(warning);
     print_log(fmt::format("dialect: {} ({})", to_string(scene.dialect.name), scene.dialect.reason));
     if (options.verbose) log_facts(options, scene);
     return scene;

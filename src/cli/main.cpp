@@ -59,10 +59,10 @@ int main(int argc, char** argv)
         return complain(exit_code::usage, error.what());
     } catch (const SceneError& error) {
         for (const Diagnostic& diagnostic : error.diagnostics())
-            if (diagnostic.severity == Severity::error || !options.quiet) print_log(diagnostic.text());
+            if (diagnostic.severity == Severity::error || !options.quiet) print_log(diagnostic);
         return exit_code::error;
     } catch (const FileError& error) {
-        print_log(Diagnostic{Severity::error, error.location(), error.what()}.text());
+        print_log(Diagnostic{Severity::error, error.location(), error.what()});
         return exit_code::error;
     } catch (const std::bad_alloc&) {
         return complain(exit_code::error, "not enough memory");

@@ -24,10 +24,9 @@ struct Merged {
     std::vector<std::string> names;                       // plumb:workPart of each
 };
 
-std::uint64_t wanted_samples(const StateFile& file)
+std::uint64_t wanted_samples(const StateFile& file, const std::string& name)
 {
-    if (const auto samples = header_integer(file.header, "plumb:workWanted"))
-        return static_cast<std::uint64_t>(*samples);
+    if (const auto samples = header_samples(file.header, "plumb:workWanted", name)) return *samples;
     return file.state.taken.samples_per_pixel(file.state.film.window()).most;
 }
 
@@ -56,9 +55,9 @@ void check_part(const Merged& merged, const StateFile& part, const std::string& 
         refuse(fmt::format("one has the pixels {}, the other {}",
                            rectangle_text(merged.file.state.film.window()),
                            rectangle_text(part.state.film.window())));
-    if (wanted_samples(part) != wanted_samples(merged.file))
-        refuse(fmt::format("one is of {} samples per pixel, the other of {}", wanted_samples(merged.file),
-                           wanted_samples(part)));
+    const std::uint64_t here = wanted_samples(merged.file, first);
+    if (const std::uint64_t there = wanted_samples(part, name); there != here)
+        refuse(fmt::format("one is of {} samples per pixel, the other of {}", here, there));
     for (const auto& [other, samples] : merged.parts)
         if (const SampleSet both = samples & part.state.taken; !both.empty())
             throw Error(fmt::format("'{}' and '{}' both have {} samples, the first of them at {}", other,
@@ -78,6 +77,9 @@ Merged merge_parts(const std::vector<std::string>& names)
     for (const std::string& name : names) {
         StateFile part = read_state(name);
         check_language(part, name);
+        // What is wrong with a header is said before many other parts are read.
+        wanted_samples(part, name);
+        header_options(part.header, header_text(part.header, "plumb:scene"), name);
         const SampleSet samples = part.state.taken;
         const std::string label = header_text(part.header, "plumb:workPart");
         if (!merged) {
@@ -125,13 +127,6 @@ Metadata picture_header(const StateFile& file, const Evidence& evidence)
     return header;
 }
 
-Options options_of(const StateFile& file)
-{
-    std::vector<std::string> words = shell_split(header_text(file.header, "plumb:arguments"));
-    words.insert(words.begin(), header_text(file.header, "plumb:scene"));
-    return parse_options(std::move(words));
-}
-
 std::string merge_json(const Options& options, const Merged& merged, const SampleSet& missing,
                        const std::vector<std::string>& outputs)
 {
@@ -163,7 +158,8 @@ void write_picture_of(const Merged& merged, const Options& run)
     const Ledger ledger{lines_of(header_text(file.header, "plumb:workBiases")),
                         lines_of(header_text(file.header, "plumb:workModel"))};
     const Evidence evidence = make_evidence(ledger, file.state, header_text(file.header, "plumb:workStop"));
-    const Options options = options_of(file);
+    const Options options =
+        header_options(file.header, header_text(file.header, "plumb:scene"), merged.parts.front().first);
     Image image = file.state.film.develop(options.variance ? Channels::color_and_evidence : Channels::color);
     image.metadata = picture_header(file, evidence);
     write_pictures(run.outputs, image, options.exposure, packing_of(evidence),
@@ -184,15 +180,19 @@ std::string_view merge_manual()
 
 int merge_command(const Options& options)
 {
+    const std::string& checkpoint = options.checkpoint.file;
     std::vector<std::string> outputs = options.outputs;
-    if (!options.checkpoint.file.empty()) outputs.push_back(options.checkpoint.file);
-    check_outputs(outputs, options.json);
-    keep_inputs({options.subjects.begin(), options.subjects.end()}, outputs, options.json,
+    if (!checkpoint.empty()) outputs.push_back(checkpoint);
+    std::vector<std::string> written = outputs;
+    if (!checkpoint.empty()) written.push_back(previous_generation(checkpoint).string());
+    check_outputs(written, options.json);
+    keep_inputs(KeptFiles({options.subjects.begin(), options.subjects.end()}), written, options.json,
                 "it is a part to be merged");
 
     Merged merged = merge_parts(options.subjects);
     StateFile& file = merged.file;
-    const SampleSet wanted(SampleBlock{file.state.film.window(), 0, wanted_samples(file)});
+    const SampleSet wanted(
+        SampleBlock{file.state.film.window(), 0, wanted_samples(file, merged.parts.front().first)});
     const SampleSet missing = wanted - file.state.taken;
     const std::string complaint =
         missing.empty()
@@ -205,8 +205,10 @@ int merge_command(const Options& options)
 
     std::sort(merged.names.begin(), merged.names.end());
     replace(file.header, "plumb:workPart", lines_text(merged.names));
-    if (!options.checkpoint.file.empty())
-        save_checkpoint(options.checkpoint.file, file.state, file.resolution, file.header);
+    if (!checkpoint.empty()) {
+        keep_previous(checkpoint, file.header);
+        save_checkpoint(checkpoint, file.state, file.resolution, file.header);
+    }
     if (!options.outputs.empty()) write_picture_of(merged, options);
     write_json(options.json, merge_json(options, merged, missing, options.outputs));
     if (options.quiet) return exit_code::done;

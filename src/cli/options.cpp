@@ -132,9 +132,50 @@ void apply(const OptionRow& row, const std::vector<std::string>& values, Options
         row.apply(options, name, value);
         std::string word = fmt::format(" {}", name);
         if (row.takes_value()) word += " " + shell_quote(value);
-        if (row.changes_scene()) options.scene_words += word;
+        if (row.changes_samples()) options.scene_words += word;
         if (row.changes_picture()) options.picture_words += word;
     }
+}
+
+// The options among the words, and the words that are none.
+struct Sorted {
+    std::vector<std::pair<const OptionRow*, std::vector<std::string>>> given; // with their values
+    std::vector<std::string> others;
+    std::vector<std::string> unknown; // look like options
+};
+
+Sorted sort_words(std::vector<std::string> words, const std::vector<const OptionRow*>& known)
+{
+    CLI::App app;
+    app.set_help_flag();
+    app.allow_extras();
+    CLI::Option* subject = app.add_option("WORD")->allow_extra_args(false);
+    std::vector<std::pair<const OptionRow*, CLI::Option*>> options;
+    for (const OptionRow* row : known) {
+        CLI::Option* option = row->takes_value() ? app.add_option(row->names)->allow_extra_args(false)
+                                                 : app.add_flag(row->names)->disable_flag_override();
+        option->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+        options.emplace_back(row, option);
+        // CLI11 would take the next word for the value of "--spp=".
+        const std::string empty = fmt::format("{}=", row->long_name());
+        if (std::find(words.begin(), words.end(), empty) != words.end())
+            reject_values(std::string(row->long_name()) + ":");
+    }
+    try {
+        std::reverse(words.begin(), words.end()); // as CLI11 wants them
+        app.parse(std::move(words));
+    } catch (const CLI::ArgumentMismatch& problem) {
+        reject_values(problem.what());
+    } catch (const CLI::ParseError& problem) {
+        throw UsageError(problem.what());
+    }
+    Sorted sorted;
+    sorted.others = subject->results();
+    for (const std::string& word : app.remaining())
+        (word.size() > 1 && word.front() == '-' ? sorted.unknown : sorted.others).push_back(word);
+    for (const auto& [row, option] : options)
+        if (option->count() > 0) sorted.given.emplace_back(row, option->results());
+    return sorted;
 }
 
 } // namespace
@@ -149,39 +190,14 @@ Options parse_options(std::vector<std::string> words)
     if (options.verb != Verb::render) words.erase(words.begin());
 
     const std::string first = words.empty() ? "" : words.front();
-
-    CLI::App app;
-    app.set_help_flag();
-    app.allow_extras();
-    CLI::Option* subject = app.add_option("WORD")->allow_extra_args(false);
-    std::vector<std::pair<const OptionRow*, CLI::Option*>> given;
-    for (const OptionRow& row : option_rows()) {
-        if (!row.goes_with(options.verb)) continue;
-        CLI::Option* option = row.takes_value() ? app.add_option(row.names)->allow_extra_args(false)
-                                                : app.add_flag(row.names)->disable_flag_override();
-        option->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-        given.emplace_back(&row, option);
-        // CLI11 would take the next word for the value of "--spp=".
-        const std::string empty = fmt::format("{}=", row.long_name());
-        if (std::find(words.begin(), words.end(), empty) != words.end())
-            reject_values(std::string(row.long_name()) + ":");
-    }
-    try {
-        std::reverse(words.begin(), words.end()); // as CLI11 wants them
-        app.parse(std::move(words));
-    } catch (const CLI::ArgumentMismatch& problem) {
-        reject_values(problem.what());
-    } catch (const CLI::ParseError& problem) {
-        throw UsageError(problem.what());
-    }
-
-    options.subjects = subject->results();
-    for (const std::string& word : app.remaining())
-        if (word.size() < 2 || word.front() != '-') options.subjects.push_back(word);
+    std::vector<const OptionRow*> known;
+    for (const OptionRow& row : option_rows())
+        if (row.goes_with(options.verb)) known.push_back(&row);
+    Sorted sorted = sort_words(std::move(words), known);
+    options.subjects = std::move(sorted.others);
     if (!options.subjects.empty()) options.subject = options.subjects.front();
-    for (const auto& [row, option] : given)
-        if (option->count() > 0) apply(*row, option->results(), options);
-    reject_words(options, first, app.remaining());
+    for (const auto& [row, values] : sorted.given) apply(*row, values, options);
+    reject_words(options, first, sorted.unknown);
     if (options.help || options.version) return options;
 
     if (options.subjects.size() < verb.min_subjects)
@@ -192,8 +208,10 @@ Options parse_options(std::vector<std::string> words)
     if (options.verb == Verb::rerun && options.outputs.empty())
         throw UsageError("rerun needs -o,--output FILE: it does not guess which file to write");
     if (options.verb == Verb::replay)
-        for (const auto& [row, option] : given)
-            if (row->topic == Topic::path && option->count() == 0)
+        for (const OptionRow* row : known)
+            if (row->topic == Topic::path &&
+                std::none_of(sorted.given.begin(), sorted.given.end(),
+                             [row](const auto& given) { return given.first == row; }))
                 throw UsageError(fmt::format("replay needs {} {}", row->names, row->value));
     if (options.verb == Verb::render) settle_state_file(options);
     if (options.verb == Verb::merge && options.outputs.empty() && options.checkpoint.file.empty())
@@ -201,6 +219,22 @@ Options parse_options(std::vector<std::string> words)
             "merge needs -o,--output IMAGE, or --checkpoint FILE for parts that are to be merged on");
     if (options.quiet && options.verbose) throw UsageError("--quiet and --verbose exclude each other");
     check_outputs(options);
+    return options;
+}
+
+Options options_of_header(const std::string& scene, const std::vector<std::string>& words)
+{
+    std::vector<const OptionRow*> known;
+    for (const OptionRow& row : option_rows())
+        if (row.changes_picture()) known.push_back(&row);
+    Options options;
+    options.subjects = {scene};
+    options.subject = scene;
+    const Sorted sorted = sort_words(words, known);
+    for (const auto& others : {sorted.unknown, sorted.others})
+        if (!others.empty())
+            throw UsageError(fmt::format("'{}' is no option that changes a picture", others.front()));
+    for (const auto& [row, values] : sorted.given) apply(*row, values, options);
     return options;
 }
 

@@ -129,6 +129,10 @@ struct Options {
 // words: without the program's name. Throws UsageError.
 Options parse_options(std::vector<std::string> words);
 
+// What a picture's header says of how the scene was rendered: `words` may come from anybody, and only options that change a
+// picture are taken. Throws UsageError.
+Options options_of_header(const std::string& scene, const std::vector<std::string>& words);
+
 // What --help prints.
 std::string help_text(Verb verb);
 

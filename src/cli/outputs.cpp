@@ -7,6 +7,7 @@
 #include "cli/text_file.h"
 
 #include "core/parallel.h"
+#include "io/temporary_file.h"
 #include "plumb/error.h"
 #include "plumb/image.h"
 
@@ -21,7 +22,8 @@ namespace {
 std::filesystem::path identity(const std::filesystem::path& file)
 {
     std::error_code failed;
-    const auto path = std::filesystem::weakly_canonical(std::filesystem::absolute(file, failed), failed);
+    const auto path =
+        std::filesystem::weakly_canonical(std::filesystem::absolute(end_of_links(file), failed), failed);
     return failed ? std::filesystem::path() : path;
 }
 
@@ -80,13 +82,22 @@ void check_outputs(const std::vector<std::string>& images, const std::string& js
     }
 }
 
-void keep_inputs(const std::vector<std::filesystem::path>& inputs, const std::vector<std::string>& images,
-                 const std::string& json, std::string_view reason)
+KeptFiles::KeptFiles(const std::vector<std::filesystem::path>& files)
+{
+    for (const std::filesystem::path& file : files)
+        if (const auto path = identity(file); !path.empty()) identities_.insert(path);
+}
+
+bool KeptFiles::contains(const std::filesystem::path& file) const
+{
+    return identities_.contains(identity(file));
+}
+
+void keep_inputs(const KeptFiles& inputs, const std::vector<std::string>& images, const std::string& json,
+                 std::string_view reason)
 {
     for (const std::string& file : all_files(images, json))
-        for (const std::filesystem::path& input : inputs)
-            if (const auto path = identity(file); !path.empty() && path == identity(input))
-                throw Error(fmt::format("cannot write '{}': {}", file, reason));
+        if (inputs.contains(file)) throw Error(fmt::format("cannot write '{}': {}", file, reason));
 }
 
 Packing packing_of(const Evidence& evidence)

@@ -6,6 +6,7 @@
 #include "plumb/evidence.h"
 
 #include <filesystem>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,9 +17,19 @@ namespace plumb {
 // names. json: as --json has it; empty: none; "-": standard output.
 void check_outputs(const std::vector<std::string>& images, const std::string& json);
 
+// Files that nothing may be written to, under whatever names.
+class KeptFiles {
+public:
+    explicit KeptFiles(const std::vector<std::filesystem::path>& files);
+    bool contains(const std::filesystem::path& file) const;
+
+private:
+    std::set<std::filesystem::path> identities_;
+};
+
 // Throws Error, "cannot write 'X': " and the reason, if an output is one of the inputs.
-void keep_inputs(const std::vector<std::filesystem::path>& inputs, const std::vector<std::string>& images,
-                 const std::string& json, std::string_view reason);
+void keep_inputs(const KeptFiles& inputs, const std::vector<std::string>& images, const std::string& json,
+                 std::string_view reason);
 
 // An interrupted picture is written fast: somebody waits, and it will be replaced.
 Packing packing_of(const Evidence& evidence);

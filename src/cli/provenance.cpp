@@ -3,6 +3,8 @@
 
 #include "cli/text.h"
 
+#include "plumb/error.h"
+
 #include <algorithm>
 #include <fmt/format.h>
 #include <map>
@@ -31,7 +33,9 @@ std::string value_text(const Metadata& header, std::string_view name)
         if (key != name) continue;
         if (const int* const integer = std::get_if<int>(&value)) return fmt::format("{}", *integer);
         if (const float* const number = std::get_if<float>(&value)) return fmt::format("{}", *number);
-        return header_text(header, name);
+        if (const auto* const numbers = std::get_if<std::vector<float>>(&value))
+            return fmt::format("{}", fmt::join(*numbers, " "));
+        return std::get<std::string>(value);
     }
     return "none";
 }
@@ -57,6 +61,36 @@ std::optional<int> header_integer(const Metadata& header, std::string_view name)
 int language_of(const Metadata& header)
 {
     return header_integer(header, "plumb:language").value_or(1); // whose headers do not say so
+}
+
+std::optional<std::uint64_t> header_samples(const Metadata& header, std::string_view name,
+                                            const std::string& file)
+{
+    const auto there =
+        std::find_if(header.begin(), header.end(), [&](const auto& entry) { return entry.first == name; });
+    if (there == header.end()) return std::nullopt;
+    const int* const samples = std::get_if<int>(&there->second);
+    if (!samples || *samples < 1 || static_cast<std::uint64_t>(*samples) > film_max_samples)
+        throw Error(
+            fmt::format("the header of '{}' makes no sense: {} must be an integer from 1 to {}, not {}", file,
+                        name, film_max_samples, value_text(header, name)));
+    return static_cast<std::uint64_t>(*samples);
+}
+
+Options header_options(const Metadata& header, const std::string& scene, const std::string& file)
+{
+    try {
+        return options_of_header(scene, shell_split(header_text(header, "plumb:arguments")));
+    } catch (const UsageError& problem) {
+        throw Error(
+            fmt::format("the header of '{}' makes no sense: plumb:arguments: {}", file, problem.what()));
+    }
+}
+
+bool has_old_hashes(const Metadata& header)
+{
+    constexpr std::size_t digits = 32; // SHA-256 has 64
+    return header_text(header, "plumb:inputHash").size() == digits;
 }
 
 std::vector<std::string> input_changes(const Metadata& then, const Metadata& now)
@@ -95,6 +129,10 @@ std::vector<std::string> sample_changes(const Metadata& then, const Metadata& no
         {"plumb:embree", "Embree's version"},
         {"plumb:processor", "the processor's maker"},
     };
+    if (has_old_hashes(then) != has_old_hashes(now))
+        return {"its inputs are told by hashes of Plumb 0.1, not by SHA-256, so that nobody can tell whether "
+                "they are what "
+                "they were"};
     std::vector<std::string> changes = input_changes(then, now);
     for (const auto& [name, meaning] : settings)
         if (const std::string was = value_text(then, name), is = value_text(now, name); was != is)

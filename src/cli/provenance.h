@@ -3,7 +3,7 @@
 
 // Whether two headers (header.h) tell of the same work.
 
-#include "plumb/image.h"
+#include "cli/options.h"
 
 #include <optional>
 #include <string>
@@ -20,6 +20,18 @@ std::optional<int> header_integer(const Metadata& header, std::string_view name)
 
 // The version of the scene language that it was made with.
 int language_of(const Metadata& header);
+
+// Headers come from anybody. The following throw Error, naming the file and the entry.
+
+// A number of samples per pixel; nothing if there is no such entry.
+std::optional<std::uint64_t> header_samples(const Metadata& header, std::string_view name,
+                                            const std::string& file);
+
+// The options that made the picture, of `scene`: those that change a picture (option_rows.h), and no other.
+Options header_options(const Metadata& header, const std::string& scene, const std::string& file);
+
+// Whether the inputs are told by the hashes that Plumb 0.1 wrote: they are not comparable with SHA-256.
+bool has_old_hashes(const Metadata& header);
 
 // What is different in the files that were read, by plumb:inputs, and what options and dialect made of them, by
 // plumb:inputHash: "'a.obj' has changed". Empty: nothing.

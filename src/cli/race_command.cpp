@@ -8,6 +8,7 @@
 #include "cli/progress.h"
 #include "cli/race_statistics.h"
 
+#include "core/visible_text.h"
 #include "plumb/mean_and_variance.h"
 
 #include <algorithm>
@@ -211,7 +212,7 @@ int race_command(const Options& options)
     const std::vector<Result> results = rank(racers, means);
     const CompareOutcome outcome = outcome_of(pairs);
     if (!options.quiet && options.json != "-") {
-        print_output(fmt::format("{}: {} rounds of {} samples per pixel\n", options.subject,
+        print_output(fmt::format("{}: {} rounds of {} samples per pixel\n", visible_text(options.subject),
                                  options.race.rounds, samples_per_pixel));
         print_output(table_text(results, samples_per_pixel));
         for (const Pair& pair : pairs) print_output(pair_text(pair));

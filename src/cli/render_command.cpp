@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "cli/checkpoint.h"
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "cli/exit_codes.h"
@@ -61,23 +62,20 @@ void log_summary(const Report& report, const Options& options)
                         shell_quote(options.subject)));
     if (evidence.left_out.count == 0) return;
     const LeftOut::Sample& first = evidence.left_out.first;
-    print_log(fmt::format("warning: {} samples were left out, the first is {}; to see its path:\n"
-                          "    renderer replay {} --pixel {},{} --sample {}{}",
-                          evidence.left_out.count, left_out_text(first), shell_quote(options.subject),
+    print_log(fmt::format("warning: {} samples were left out, the first is {}; to see its path:",
+                          evidence.left_out.count, left_out_text(first)));
+    print_log(fmt::format("    renderer replay {} --pixel {},{} --sample {}{}", shell_quote(options.subject),
                           first.pixel.x, first.pixel.y, first.index, options.scene_words));
 }
 
 // What to do after a signal.
 void log_interruption(const Options& options, const SampleSet::Range& samples)
 {
-    std::string text =
-        fmt::format("interrupted with {} to {} samples per pixel", samples.least, samples.most);
-    if (options.checkpoint.file.empty())
-        text += "; without --checkpoint it cannot be gone on from";
-    else
-        text +=
-            "; to go on:\n    renderer" + options.all_words + (options.checkpoint.resume ? "" : " --resume");
-    print_log(text);
+    const bool can_go_on = !options.checkpoint.file.empty();
+    print_log(fmt::format("interrupted with {} to {} samples per pixel; {}", samples.least, samples.most,
+                          can_go_on ? "to go on:" : "without --checkpoint it cannot be gone on from"));
+    if (can_go_on)
+        print_log("    renderer" + options.all_words + (options.checkpoint.resume ? "" : " --resume"));
 }
 
 std::vector<std::string> images_of(const Options& options, const LoadedScene& scene)
@@ -96,9 +94,19 @@ std::vector<std::string> with_checkpoint(std::vector<std::string> images, const 
 void keep_checkpoint(const Options& options)
 {
     const std::string& file = options.checkpoint.file;
-    std::error_code ignored;
-    if (file.empty() || options.checkpoint.resume || !std::filesystem::exists(file, ignored)) return;
-    throw Error(fmt::format("'{}' is there already: go on from it with --resume, or remove it", file));
+    if (file.empty() || options.checkpoint.resume) return;
+    if (const auto there = generation_there(file))
+        throw Error(
+            fmt::format("'{}' is there already: go on from it with --resume, or remove it", there->string()));
+}
+
+// All that a run writes to.
+std::vector<std::string> files_written(const std::vector<std::string>& images, const Options& options)
+{
+    std::vector<std::string> files = with_checkpoint(images, options);
+    if (!options.checkpoint.file.empty())
+        files.push_back(previous_generation(options.checkpoint.file).string());
+    return files;
 }
 
 // The picture of a run with its evidence, into all files.
@@ -118,7 +126,7 @@ void write_pictures_of(const RenderRun& run, const Evidence& evidence, const Opt
 int render_command(const Options& options)
 {
     keep_checkpoint(options);
-    check_outputs(with_checkpoint(options.part ? std::vector<std::string>() : options.outputs, options),
+    check_outputs(files_written(options.part ? std::vector<std::string>() : options.outputs, options),
                   options.json);
     return log_rendering(options, render_and_write(options, load_and_log(options)));
 }
@@ -128,13 +136,16 @@ Rendered render_and_write(const Options& options, const LoadedScene& scene)
     const Stopwatch since_loaded;
     const std::vector<std::string> images = images_of(options, scene);
     const std::vector<std::string> outputs = with_checkpoint(images, options);
-    if (options.outputs.empty()) check_outputs(outputs, options.json);
-    keep_inputs(paths_of(scene.inputs), outputs, options.json, "the scene reads this file; write to another");
+    const std::vector<std::string> written = files_written(images, options);
+    if (options.outputs.empty()) check_outputs(written, options.json);
+    keep_inputs(KeptFiles(paths_of(scene.inputs)), written, options.json,
+                "the scene reads this file; write to another");
 
     const Metadata header = scene_header(options, scene);
     const Metadata work = work_header(options, scene);
     const bool has_checkpoint = !options.checkpoint.file.empty();
-    std::optional<InterruptGuard> guard(std::in_place);
+    std::optional<InterruptGuard> guard(std::in_place,
+                                        has_checkpoint ? Interruption::by_manager : Interruption::by_hand);
     const RenderRun run = run_rendering(options, scene, work);
     if (!has_checkpoint) guard.reset(); // else until it is written
 

@@ -85,7 +85,11 @@ private:
     {
         const std::string& name = options_.checkpoint.file;
         std::optional<StateFile> file;
-        if (options_.checkpoint.resume) file = load_checkpoint(name, with_program(header_));
+        if (options_.checkpoint.resume) {
+            const Metadata header = with_program(header_);
+            file = load_checkpoint(name, header);
+            keep_previous(name, header);
+        }
         if (!file) {
             if (options_.checkpoint.resume && !options_.quiet)
                 print_log(fmt::format("there is no '{}' yet: starting with the first sample", name));

@@ -6,6 +6,7 @@
 #include "cli/provenance.h"
 #include "cli/text.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace plumb {
@@ -21,8 +22,13 @@ Metadata read_recipe(const std::string& image_file)
             "the header of '{}' does not say how the picture was made; the .exr files that Plumb renders do",
             image_file));
     if (const std::string software = header_text(recipe, "Software"); software != "Plumb " PLUMB_VERSION)
-        throw Error(fmt::format("'{}' was rendered by {}, and this is Plumb {}, whose pictures may differ",
+        throw Error(fmt::format("'{}' was rendered by '{}', and this is Plumb {}, whose pictures may differ",
                                 image_file, software, PLUMB_VERSION));
+    if (has_old_hashes(recipe))
+        throw Error(fmt::format(
+            "the header of '{}' tells the scene's files by hashes of Plumb 0.1, not by SHA-256, so "
+            "that nobody can tell whether they are what they were; render the scene itself",
+            image_file));
     return recipe;
 }
 
@@ -30,6 +36,10 @@ Metadata read_recipe(const std::string& image_file)
 std::string find_scene(const Options& options, const std::string& scene)
 {
     if (!options.scene.empty()) return options.scene;
+    // Headers have no absolute paths, unless somebody else has written them.
+    if (std::filesystem::path(scene).is_absolute())
+        throw Error(fmt::format("the header of '{}' makes no sense: plumb:scene is an absolute path, '{}'",
+                                options.subject, scene));
     const std::filesystem::path beside = std::filesystem::path(options.subject).parent_path() / scene;
     std::error_code ignored;
     for (const std::filesystem::path& path : {std::filesystem::path(scene), beside})
@@ -43,9 +53,7 @@ std::string find_scene(const Options& options, const std::string& scene)
 Options options_of(const Metadata& recipe, const Options& run)
 {
     const std::string scene = header_text(recipe, "plumb:scene");
-    std::vector<std::string> words = shell_split(header_text(recipe, "plumb:arguments"));
-    words.insert(words.begin(), find_scene(run, scene));
-    Options options = parse_options(std::move(words));
+    Options options = header_options(recipe, find_scene(run, scene), run.subject);
     options.repeat = {scene, {}, header_text(recipe, "plumb:stop")};
     options.outputs = run.outputs;
     options.json = run.json;
@@ -58,11 +66,24 @@ Options options_of(const Metadata& recipe, const Options& run)
 // Those that the picture has.
 SampleSet samples_of(const Metadata& recipe, const PixelRect& window, const std::string& image_file)
 {
-    if (const std::string text = header_text(recipe, "plumb:samplesTaken"); !text.empty())
-        if (const auto samples = SampleSet::from_text(text)) return *samples;
-    if (const auto samples = header_integer(recipe, "plumb:samplesPerPixel"); samples && *samples > 0)
-        return SampleSet(SampleBlock{window, 0, static_cast<std::uint64_t>(*samples)});
-    throw Error(fmt::format("the header of '{}' does not say which samples it has", image_file));
+    const auto per_pixel = header_samples(recipe, "plumb:samplesPerPixel", image_file);
+    const std::string name = "plumb:samplesTaken";
+    const auto is_taken = [&](const auto& entry) { return entry.first == name; };
+    if (std::none_of(recipe.begin(), recipe.end(), is_taken)) {
+        if (per_pixel) return SampleSet(SampleBlock{window, 0, *per_pixel});
+        throw Error(fmt::format("the header of '{}' does not say which samples it has", image_file));
+    }
+    const auto samples = SampleSet::from_text(header_text(recipe, name));
+    if (!samples || samples->empty())
+        throw Error(
+            fmt::format("the header of '{}' makes no sense: {} is no set of samples", image_file, name));
+    if (const SampleSet outside = *samples - SampleSet(SampleBlock{window, 0, film_max_samples});
+        !outside.empty())
+        throw Error(
+            fmt::format("the header of '{}' makes no sense: {} has samples outside the picture, the first "
+                        "of them at {}",
+                        image_file, name, SampleSet(outside.blocks().front()).text()));
+    return *samples;
 }
 
 // Throws Error if a part of the scene means something else today than when the picture was made.
@@ -102,7 +123,7 @@ std::string_view rerun_manual()
 int rerun_command(const Options& run)
 {
     const Metadata recipe = read_recipe(run.subject);
-    keep_inputs({run.subject}, run.outputs, run.json, "it is the picture to be rendered again");
+    keep_inputs(KeptFiles({run.subject}), run.outputs, run.json, "it is the picture to be rendered again");
     check_outputs(run.outputs, run.json);
     Options options = options_of(recipe, run);
     const LoadedScene scene = load_and_log(options);

@@ -63,18 +63,17 @@ public:
     void print(const std::string& text) const
     {
         if (quiet_) return;
-        if (to_log_)
-            print_log(text.substr(0, text.rfind('\n')));
-        else
-            print_output(text);
+        if (!to_log_) return print_output(text);
+        for (const std::string& line : lines_of(text)) print_log(line);
     }
 
     void print_result(const std::string& path, const TestResult& result, TestType type) const
     {
         const std::string text = result_text(result, type);
         print(text);
-        if (quiet_ && !result.passed())
-            print_log(fmt::format("error: {}:\n{}", path, text.substr(0, text.rfind('\n'))));
+        if (!quiet_ || result.passed()) return;
+        print_log(fmt::format("error: {}:", path));
+        for (const std::string& line : lines_of(text)) print_log(line);
     }
 
 private:
@@ -84,7 +83,7 @@ private:
 
 void log_warnings(const TestFile& file)
 {
-    for (const Diagnostic& warning : file.warnings) print_log(warning.text());
+    for (const Diagnostic& warning : file.warnings) print_log(warning);
     if (file.scenes.empty()) return;
     const Dialect& dialect = file.scenes.front().dialect;
     print_log(fmt::format("dialect: {} ({})", to_string(dialect.name), dialect.reason));

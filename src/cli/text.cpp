@@ -2,6 +2,7 @@
 #include "cli/text.h"
 
 #include <array>
+#include <charconv>
 #include <fmt/format.h>
 
 namespace plumb {
@@ -14,27 +15,6 @@ std::string three_digits(double x)
     const int decimals = x < 10.0 ? 2 : x < 100.0 ? 1 : 0;
     const double scale = decimals == 2 ? 100.0 : decimals == 1 ? 10.0 : 1.0;
     return fmt::format("{:.{}f}", std::floor(x * scale) / scale, decimals);
-}
-
-// The length of the well-formed UTF-8 sequence at the front (Unicode 15, table 3-7); 0 if there is none.
-std::size_t utf8_length(std::string_view text)
-{
-    const auto byte = [&](std::size_t i) {
-        return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u;
-    };
-    const auto continues = [&](std::size_t i) { return byte(i) >= 0x80 && byte(i) <= 0xbf; };
-    const unsigned first = byte(0);
-    if (first < 0x80) return 1;
-    if (first >= 0xc2 && first <= 0xdf) return continues(1) ? 2 : 0;
-    if (first >= 0xe0 && first <= 0xef) {
-        const bool in_range = (first != 0xe0 || byte(1) >= 0xa0) && (first != 0xed || byte(1) <= 0x9f);
-        return in_range && continues(1) && continues(2) ? 3 : 0;
-    }
-    if (first >= 0xf0 && first <= 0xf4) {
-        const bool in_range = (first != 0xf0 || byte(1) >= 0x90) && (first != 0xf4 || byte(1) <= 0x8f);
-        return in_range && continues(1) && continues(2) && continues(3) ? 4 : 0;
-    }
-    return 0;
 }
 
 } // namespace
@@ -123,24 +103,61 @@ std::vector<std::string> lines_of(std::string_view text)
     return lines;
 }
 
+namespace {
+
+// The character that a backslash in $'...' stands for, cut off the text together with it.
+char take_escaped(std::string_view& text)
+{
+    const char kind = text.front();
+    text.remove_prefix(1);
+    if (kind == 'n') return '\n';
+    if (kind == 't') return '\t';
+    if (kind != 'x') return kind;
+    unsigned value = 0;
+    const auto [end, problem] =
+        std::from_chars(text.data(), text.data() + std::min<std::size_t>(text.size(), 2), value, 16);
+    text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+    return static_cast<char>(static_cast<unsigned char>(value));
+}
+
+bool is_plain(std::string_view text)
+{
+    while (!text.empty()) {
+        const std::size_t length = utf8_length(text);
+        if (length == 0 || steers(text.substr(0, length))) return false;
+        text.remove_prefix(length);
+    }
+    return true;
+}
+
+} // namespace
+
 std::vector<std::string> shell_split(std::string_view line)
 {
     std::vector<std::string> words;
-    bool quoted = false;
+    enum class Quotes { none, plain, escapes } quotes = Quotes::none;
     bool inside = false; // a word
-    for (std::size_t i = 0; i < line.size(); ++i) {
-        const char c = line[i];
-        if (c == ' ' && !quoted) {
+    while (!line.empty()) {
+        const char c = line.front();
+        line.remove_prefix(1);
+        if (c == ' ' && quotes == Quotes::none) {
             inside = false;
             continue;
         }
         if (!std::exchange(inside, true)) words.emplace_back();
-        if (c == '\'')
-            quoted = !quoted;
-        else if (c == '\\' && !quoted && i + 1 < line.size())
-            words.back() += line[++i];
-        else
+        if (quotes == Quotes::none && c == '$' && line.starts_with('\'')) {
+            quotes = Quotes::escapes;
+            line.remove_prefix(1);
+        } else if (c == '\'') {
+            quotes = quotes == Quotes::none ? Quotes::plain : Quotes::none;
+        } else if (c == '\\' && quotes == Quotes::escapes && !line.empty()) {
+            words.back() += take_escaped(line);
+        } else if (c == '\\' && quotes == Quotes::none && !line.empty()) {
+            words.back() += line.front();
+            line.remove_prefix(1);
+        } else {
             words.back() += c;
+        }
     }
     return words;
 }
@@ -150,6 +167,19 @@ std::string shell_quote(std::string_view word)
     constexpr std::string_view harmless =
         "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@%";
     if (!word.empty() && word.find_first_not_of(harmless) == std::string_view::npos) return std::string(word);
+    if (!is_plain(word)) {
+        std::string escaped = "$'";
+        for (const char c : word) {
+            const auto byte = static_cast<unsigned char>(c);
+            if (byte < 0x20 || byte >= 0x7f)
+                escaped += fmt::format("\\x{:02x}", byte);
+            else if (c == '\'' || c == '\\')
+                escaped += std::string("\\") + c;
+            else
+                escaped += c;
+        }
+        return escaped + "'";
+    }
     std::string quoted = "'";
     for (const char c : word) {
         if (c == '\'')
@@ -158,30 +188,6 @@ std::string shell_quote(std::string_view word)
             quoted += c;
     }
     return quoted + "'";
-}
-
-std::string visible_text(std::string_view text)
-{
-    std::string result;
-    for (const char c : text) {
-        const auto byte = static_cast<unsigned char>(c);
-        if (byte < 0x20 || byte == 0x7f)
-            result += fmt::format("\\x{:02x}", byte);
-        else
-            result += c;
-    }
-    return result;
-}
-
-std::string valid_utf8(std::string_view text)
-{
-    std::string result;
-    while (!text.empty()) {
-        const std::size_t length = utf8_length(text);
-        result += length > 0 ? text.substr(0, length) : std::string_view("\xef\xbf\xbd");
-        text.remove_prefix(std::max<std::size_t>(length, 1));
-    }
-    return result;
 }
 
 } // namespace plumb

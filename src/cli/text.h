@@ -3,6 +3,7 @@
 
 // Numbers and words for people.
 
+#include "core/visible_text.h"
 #include "plumb/color.h"
 #include "plumb/film.h"
 
@@ -22,11 +23,9 @@ std::string list_text(const std::vector<std::string>& items);  // a, b and c
 std::string lines_text(const std::vector<std::string>& items); // one a line, no line end after the last
 std::vector<std::string> lines_of(
     std::string_view text); // the inverse, for items without line ends that are not empty
-std::string rectangle_text(const PixelRect& rectangle);      // X,Y,WIDTH,HEIGHT
-std::string shell_quote(std::string_view word);              // as it is if harmless, else in single quotes
+std::string rectangle_text(const PixelRect& rectangle); // X,Y,WIDTH,HEIGHT
+// As it is if harmless, else in single quotes; with what steers a terminal (visible_text.h) as in $'a\nb'.
+std::string shell_quote(std::string_view word);
 std::vector<std::string> shell_split(std::string_view line); // the words that shell_quote() made a line of
-std::string visible_text(std::string_view text);             // control characters as \x1b
-// Valid UTF-8: what is not becomes U+FFFD.
-std::string valid_utf8(std::string_view text);
 
 } // namespace plumb

@@ -49,15 +49,6 @@ void check_text_path(const fs::path& path)
     if (!path.has_filename()) fail(path, ENOENT);
     if (is_file_or_absent(path)) {
         if (fs::exists(path, ignored) && access(path.c_str(), W_OK) != 0) fail(path, errno);
-        // Also finds a name that is too long, which the short name of a temporary file does not.
-        if (!fs::exists(path, ignored)) {
-            const int descriptor = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-            if (descriptor < 0 && errno != EEXIST) fail(path, errno);
-            if (descriptor >= 0) {
-                close(descriptor);
-                unlink(path.c_str());
-            }
-        }
         const TemporaryFile created_and_removed(path);
     } else if (access(path.c_str(), W_OK) != 0) {
         fail(path, errno);

@@ -61,9 +61,11 @@ Significance find_significance(const Picture& a, const Picture& b, const Compare
 
     result = test_significance(a, b, options);
     const std::uint64_t tolerated = tolerated_pixels(a, options);
+    const bool nothing_is_tested = // then nobody can tolerate it
+        result.differing == 0 && result.untested + count_non_finite(a, b).both >= result.pixels;
     if (result.differing > tolerated) {
         result.finding = Finding::different;
-    } else if (result.differing + result.untested > tolerated) {
+    } else if (nothing_is_tested || result.differing + result.untested > tolerated) {
         result.finding = Finding::undecided;
         result.reason = fmt::format("{} of {} pixels lie in no square where the samples support a test",
                                     result.untested, result.pixels);

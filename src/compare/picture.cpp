@@ -47,7 +47,7 @@ std::optional<double> samples_per_pixel(const Image& image)
     for (const auto& [name, value] : image.metadata) {
         if (name != "plumb:samplesPerPixel") continue;
         if (const int* count = std::get_if<int>(&value); count && *count > 0) return *count;
-        if (const float* count = std::get_if<float>(&value); count && *count >= 1.f)
+        if (const float* count = std::get_if<float>(&value); count && *count >= 1.f && std::isfinite(*count))
             return static_cast<double>(*count);
     }
     return {};

@@ -2,6 +2,7 @@
 #include "plumb/error.h"
 
 #include "core/lower_case.h"
+#include "core/visible_text.h"
 
 #include <algorithm>
 
@@ -15,18 +16,7 @@ constexpr std::size_t kept_bytes = 320;
 constexpr int max_width = 160;
 constexpr int tab_width = 8;
 
-bool continues_character(char byte) // of UTF-8
-{
-    return (static_cast<unsigned char>(byte) & 0xC0u) == 0x80u;
-}
-
-bool is_control(char byte)
-{
-    const auto value = static_cast<unsigned char>(byte);
-    return value < 0x20 || value == 0x7F;
-}
-
-// A line as a terminal shows it: one string a terminal column, tabs expanded, control characters made harmless.
+// A line as a terminal shows it: one string a terminal column, tabs expanded, what would steer it made harmless.
 struct ShownLine {
     std::vector<std::string> cells;
     int mark_begin = 0; // cells
@@ -39,17 +29,19 @@ ShownLine show(const SourceLocation& at)
     const std::string& text = at.line_text;
     const int begin = at.column - at.line_text_column, end = begin + std::max(at.length, 1);
     const auto cell_count = [&] { return static_cast<int>(shown.cells.size()); };
-    for (int i = 0; i < static_cast<int>(text.size()); ++i) {
-        const char byte = text[static_cast<std::size_t>(i)];
-        if (i == begin) shown.mark_begin = cell_count();
-        if (byte == '\t')
+    for (int i = 0; i < static_cast<int>(text.size());) {
+        const std::string_view rest = std::string_view(text).substr(static_cast<std::size_t>(i));
+        const std::size_t length = utf8_length(rest);
+        const std::string_view character = rest.substr(0, std::max<std::size_t>(length, 1));
+        const int next = i + static_cast<int>(character.size());
+        if (i <= begin && begin < next) shown.mark_begin = cell_count();
+        if (character == "\t")
             shown.cells.resize(
                 shown.cells.size() + static_cast<std::size_t>(tab_width - cell_count() % tab_width), " ");
-        else if (continues_character(byte) && !shown.cells.empty())
-            shown.cells.back() += byte;
         else
-            shown.cells.emplace_back(1, is_control(byte) ? '?' : byte);
-        if (i + 1 == end) shown.mark_end = cell_count();
+            shown.cells.emplace_back(length == 0 || steers(character) ? "?" : character);
+        if (i < end && end <= next) shown.mark_end = cell_count();
+        i = next;
     }
     if (begin >= static_cast<int>(text.size())) shown.mark_begin = cell_count();
     if (end > static_cast<int>(text.size())) shown.mark_end = cell_count();
@@ -89,14 +81,6 @@ std::string_view to_string(Severity severity)
     case Severity::note: break;
     }
     return "note";
-}
-
-// Messages quote what files contain: nothing of that may steer a terminal.
-std::string harmless(std::string message)
-{
-    std::replace_if(
-        message.begin(), message.end(), [](char c) { return is_control(c) && c != '\n'; }, '?');
-    return message;
 }
 
 std::string joined(const std::vector<Diagnostic>& diagnostics)
@@ -162,9 +146,9 @@ SourceLocation SourceLocation::from_line(std::string file, int line, std::string
 
 std::string Diagnostic::text() const
 {
-    const std::string what = std::string(to_string(severity)) + ": " + harmless(message);
+    const std::string what = std::string(to_string(severity)) + ": " + visible_text(message);
     if (location.file.empty()) return what;
-    std::string place = harmless(location.file) + ":";
+    std::string place = visible_text(location.file) + ":";
     if (location.line > 0)
         place += std::to_string(location.line) + ":" + std::to_string(location.column) + ":";
     return place + " " + what + (location.line > 0 && !location.hides_line ? "\n" + excerpt(location) : "");

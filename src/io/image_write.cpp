@@ -118,7 +118,8 @@ void check_image_path(const std::filesystem::path& path)
     std::error_code error;
     if (std::filesystem::is_directory(path, error)) fail(path, "a folder of that name exists");
     format_of(path);
-    const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+    const std::filesystem::path end = end_of_links(path);
+    const std::filesystem::path folder = end.has_parent_path() ? end.parent_path() : ".";
     if (!std::filesystem::exists(folder, error))
         fail(path, fmt::format("the folder '{}' does not exist", folder.string()));
     if (!std::filesystem::is_directory(folder, error))

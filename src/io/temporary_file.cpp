@@ -3,6 +3,7 @@
 #include "io/temporary_file.h"
 
 #include "plumb/error.h"
+#include "plumb/hash.h"
 
 #include <cerrno>
 #include <cstdio>
@@ -19,17 +20,38 @@ namespace plumb {
 
 namespace fs = std::filesystem;
 
-TemporaryFile::TemporaryFile(const fs::path& target) : target_(target)
+fs::path end_of_links(const fs::path& path)
 {
-    std::error_code missing;
-    final_ = fs::is_symlink(target, missing) ? fs::weakly_canonical(target, missing) : target;
-    if (final_.empty() || missing) final_ = target;
+    constexpr int most_links = 40; // as the system follows
+    fs::path end = path;
+    std::error_code failed;
+    for (int i = 0; i < most_links && fs::is_symlink(end, failed); ++i) {
+        const fs::path to = fs::read_symlink(end, failed);
+        if (failed) return path;
+        end = to.is_absolute() ? to : end.parent_path() / to;
+    }
+    return end;
+}
+
+fs::path unfinished_name(const fs::path& path, std::string_view suffix)
+{
+    constexpr std::size_t longest = 200; // of at most 255 bytes
+    const std::string name = path.filename().string();
+    Hash128 hash; // so that the names of long names differ, too
+    hash.update("Plumb's unfinished " + name);
+    fs::path result = path;
+    return result.replace_filename(
+        fmt::format(".{}.plumb-{}.{}", name.substr(0, longest), hash.hex().substr(0, 16), suffix));
+}
+
+TemporaryFile::TemporaryFile(const fs::path& target) : target_(target), final_(end_of_links(target))
+{
+    struct stat ignored {};
+    if (lstat(final_.c_str(), &ignored) != 0 && errno == ENAMETOOLONG) fail(errno);
+    if (S_ISLNK(ignored.st_mode)) fail(ELOOP);
     constexpr int most_at_once = 1000;
-    constexpr std::size_t longest = 200; // a name has at most 255 bytes
-    const std::string name = final_.filename().string().substr(0, longest);
     for (int i = 0; i < most_at_once; ++i) {
-        path_ = final_;
-        path_.replace_filename(fmt::format(".{}.part{}", name, i));
+        path_ = unfinished_name(final_, fmt::format("part{}", i));
         if (open_free_file()) return;
     }
     fail(EBUSY);
@@ -45,15 +67,24 @@ TemporaryFile::~TemporaryFile()
 // The lock tells whether somebody works on it; the kernel drops it when the process ends, however it ends.
 bool TemporaryFile::open_free_file()
 {
-    descriptor_ = open(path_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
-    if (descriptor_ < 0) fail(errno);
+    // Without waiting: a pipe of that name may have nobody at its other end.
+    constexpr int how = O_WRONLY | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK;
+    descriptor_ = open(path_.c_str(), how, 0666);
+    if (descriptor_ < 0) {
+        struct stat there {};
+        const int problem = errno;
+        // What cannot be opened is no file of ours.
+        if (lstat(path_.c_str(), &there) == 0) return false;
+        fail(problem);
+    }
     const bool taken = flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-    struct stat ours {};
+    struct stat opened {};
     struct stat named {};
     // Between our opening and locking it another process may have renamed or removed it.
-    const bool is_still_there = fstat(descriptor_, &ours) == 0 && stat(path_.c_str(), &named) == 0 &&
-                                ours.st_ino == named.st_ino && ours.st_dev == named.st_dev;
-    if (!taken && is_still_there) {
+    const bool is_still_there = fstat(descriptor_, &opened) == 0 && lstat(path_.c_str(), &named) == 0 &&
+                                opened.st_ino == named.st_ino && opened.st_dev == named.st_dev;
+    const bool is_ours = S_ISREG(opened.st_mode) && opened.st_nlink == 1 && opened.st_uid == geteuid();
+    if (!taken && is_still_there && is_ours) {
         if (ftruncate(descriptor_, 0) == 0) return true;
         const int problem = errno;
         close(descriptor_);

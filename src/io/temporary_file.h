@@ -9,9 +9,16 @@
 
 namespace plumb {
 
-// A new, empty file beside `target`, to take its place when it is complete; gone again when this goes before that. A
-// symbolic link stays one: the file it points to is replaced. What a process that was killed left behind is used again.
-// All functions throw Error, "cannot write 'TARGET': " and the reason.
+// Where a file of that name is written: a symbolic link stays one, whether the file that it points to is there or not.
+std::filesystem::path end_of_links(const std::filesystem::path& path);
+
+// Beside `path`: ".a.exr.plumb-5f0c41d09b3a77e2.SUFFIX", a name that nobody else has a reason to give.
+std::filesystem::path unfinished_name(const std::filesystem::path& path, std::string_view suffix);
+
+// A new, empty file beside `target` (at the end of its links), to take its place when it is complete; gone again when this
+// goes before that. What a process that was killed left behind is used again: it is told by its
+// unfinished_name(), and is a plain file of this user's with no other name. What else has such a name stays as it is.
+// All functions throw Error, "cannot write 'TARGET': " and the reason; a name that is too long is one.
 class TemporaryFile {
 public:
     explicit TemporaryFile(const std::filesystem::path& target);
@@ -29,7 +36,7 @@ private:
     bool open_free_file(); // false if it is another process's
 
     std::filesystem::path target_; // as given
-    std::filesystem::path final_;  // where the link points
+    std::filesystem::path final_;  // where the links end
     std::filesystem::path path_;
     int descriptor_ = -1;
 };

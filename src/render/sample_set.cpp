@@ -5,7 +5,9 @@
 #include "plumb/sampler.h"
 #include "render/tiles.h"
 
+#include <algorithm>
 #include <charconv>
+#include <climits>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -66,56 +68,7 @@ Intervals combine(const Intervals& a, const Intervals& b, Choose choose)
     return result;
 }
 
-// The coordinates at which some block begins or ends, ascending.
-std::vector<int> cuts(std::initializer_list<std::span<const SampleBlock>> sets, int PixelRect::*start,
-                      int PixelRect::*size)
-{
-    std::vector<int> result;
-    for (const std::span<const SampleBlock> blocks : sets) {
-        for (const SampleBlock& block : blocks) {
-            result.push_back(block.pixels.*start);
-            result.push_back(block.pixels.*start + block.pixels.*size);
-        }
-    }
-    std::sort(result.begin(), result.end());
-    result.erase(std::unique(result.begin(), result.end()), result.end());
-    return result;
-}
-
-// The picture, cut so that a cell's pixels all have the same samples.
-struct Grid {
-    std::vector<int> x;
-    std::vector<int> y;
-
-    std::size_t columns() const { return x.empty() ? 0 : x.size() - 1; }
-    std::size_t rows() const { return y.empty() ? 0 : y.size() - 1; }
-};
-
-std::size_t position(const std::vector<int>& cuts, int at)
-{
-    return static_cast<std::size_t>(std::lower_bound(cuts.begin(), cuts.end(), at) - cuts.begin());
-}
-
-// The samples of each cell, row by row.
-std::vector<Intervals> fill(const Grid& grid, std::span<const SampleBlock> blocks)
-{
-    constexpr Choose either = [](bool in_a, bool in_b) { return in_a || in_b; };
-    std::vector<Intervals> cells(grid.columns() * grid.rows());
-    for (const SampleBlock& block : blocks) {
-        const Intervals samples = {{block.first, block.last}};
-        const std::size_t right = position(grid.x, block.pixels.x + block.pixels.width);
-        const std::size_t below = position(grid.y, block.pixels.y + block.pixels.height);
-        for (std::size_t row = position(grid.y, block.pixels.y); row < below; ++row) {
-            for (std::size_t column = position(grid.x, block.pixels.x); column < right; ++column) {
-                Intervals& cell = cells[row * grid.columns() + column];
-                cell = cell.empty() ? samples : combine(cell, samples, either);
-            }
-        }
-    }
-    return cells;
-}
-
-// A run of cells with the same samples.
+// Of one set of blocks: a run of pixels of a row, all of which have the same samples.
 struct Run {
     int left;
     int right;
@@ -123,53 +76,165 @@ struct Run {
     friend bool operator==(const Run&, const Run&) = default;
 };
 
-std::vector<Run> runs_of_row(const Grid& grid, std::span<const Intervals> row)
-{
-    std::vector<Run> runs;
-    for (std::size_t column = 0; column < row.size(); ++column) {
-        if (row[column].empty()) continue;
-        if (!runs.empty() && runs.back().right == grid.x[column] && runs.back().samples == row[column])
-            runs.back().right = grid.x[column + 1];
-        else
-            runs.push_back({grid.x[column], grid.x[column + 1], row[column]});
+// Text from outside may hold blocks that lie over each other in such a way that the pieces they make of one another are
+// too many for any memory; those that we write make one each.
+constexpr std::size_t most_pieces_of_text = std::size_t{1} << 20;
+
+// Thrown and caught here.
+struct TooManyPieces {};
+
+// The rows of a set of blocks, from the top, by bands: rows between which no block begins or ends. So the time and the
+// memory are those of the pieces that there are, not of a grid across the picture.
+class Bands {
+public:
+    explicit Bands(std::span<const SampleBlock> blocks, std::size_t most_pieces = SIZE_MAX)
+        : blocks_(blocks.begin(), blocks.end()), pieces_left_(most_pieces)
+    {
+        std::sort(blocks_.begin(), blocks_.end(),
+                  [](const SampleBlock& a, const SampleBlock& b) { return a.pixels.y < b.pixels.y; });
     }
-    return runs;
+
+    static constexpr int end = INT_MAX;
+    // The first row below `y`, which take() was called with last, at which something changes.
+    int next(int y) const
+    {
+        int result = next_ < blocks_.size() ? blocks_[next_].pixels.y : end;
+        for (const SampleBlock& block : here_)
+            if (const int bottom = bottom_of(block); bottom > y) result = std::min(result, bottom);
+        return result;
+    }
+
+    // Of the band that begins at row y, which must be next() or above it. Throws TooManyPieces.
+    std::vector<Run> take(int y)
+    {
+        std::erase_if(here_, [y](const SampleBlock& block) { return bottom_of(block) <= y; });
+        for (; next_ < blocks_.size() && blocks_[next_].pixels.y <= y; ++next_)
+            if (bottom_of(blocks_[next_]) > y) here_.push_back(blocks_[next_]);
+        return runs();
+    }
+
+private:
+    static int bottom_of(const SampleBlock& block) { return block.pixels.y + block.pixels.height; }
+
+    std::vector<Run> runs()
+    {
+        std::vector<int> cuts;
+        for (const SampleBlock& block : here_) {
+            cuts.push_back(block.pixels.x);
+            cuts.push_back(block.pixels.x + block.pixels.width);
+        }
+        std::sort(cuts.begin(), cuts.end());
+        cuts.erase(std::unique(cuts.begin(), cuts.end()), cuts.end());
+        std::vector<Intervals> cells(cuts.size());
+        const auto column = [&](int x) {
+            return static_cast<std::size_t>(std::lower_bound(cuts.begin(), cuts.end(), x) - cuts.begin());
+        };
+        for (const SampleBlock& block : here_) {
+            const std::size_t right = column(block.pixels.x + block.pixels.width);
+            for (std::size_t i = column(block.pixels.x); i < right; ++i) {
+                if (pieces_left_-- == 0) throw TooManyPieces{};
+                cells[i].push_back({block.first, block.last});
+            }
+        }
+        std::vector<Run> result;
+        for (std::size_t i = 0; i + 1 < cells.size(); ++i)
+            if (!cells[i].empty()) add_run(result, {cuts[i], cuts[i + 1], united(std::move(cells[i]))});
+        return result;
+    }
+
+    // Ascending, with gaps between.
+    static Intervals united(Intervals all)
+    {
+        std::sort(all.begin(), all.end(),
+                  [](const Interval& a, const Interval& b) { return a.first < b.first; });
+        std::size_t kept = 0;
+        for (const Interval& interval : all) {
+            if (kept > 0 && interval.first <= all[kept - 1].last)
+                all[kept - 1].last = std::max(all[kept - 1].last, interval.last);
+            else
+                all[kept++] = interval;
+        }
+        all.resize(kept);
+        return all;
+    }
+
+public:
+    // Runs that touch and have the same samples are one.
+    static void add_run(std::vector<Run>& runs, Run run)
+    {
+        if (run.samples.empty()) return;
+        if (!runs.empty() && runs.back().right == run.left && runs.back().samples == run.samples)
+            runs.back().right = run.right;
+        else
+            runs.push_back(std::move(run));
+    }
+
+private:
+    std::vector<SampleBlock> blocks_; // by their first row
+    std::size_t next_ = 0;            // of them
+    std::vector<SampleBlock> here_;   // those that the band crosses
+    std::size_t pieces_left_;
+};
+
+// Two rows as one.
+std::vector<Run> combine(const std::vector<Run>& a, const std::vector<Run>& b, Choose choose)
+{
+    static const Intervals none;
+    std::vector<Run> result;
+    std::size_t at_a = 0;
+    std::size_t at_b = 0;
+    for (int x = INT_MIN; at_a < a.size() || at_b < b.size();) {
+        // The run that x is in, or the next one.
+        const auto first = [&x](const std::vector<Run>& runs, std::size_t at) {
+            return at == runs.size() ? INT_MAX : std::max(x, runs[at].left);
+        };
+        const int left = std::min(first(a, at_a), first(b, at_b));
+        int right = INT_MAX;
+        const auto samples_at = [&](const std::vector<Run>& runs, std::size_t at) -> const Intervals& {
+            if (at == runs.size()) return none;
+            const bool inside = runs[at].left <= left;
+            right = std::min(right, inside ? runs[at].right : runs[at].left);
+            return inside ? runs[at].samples : none;
+        };
+        const Intervals& in_a = samples_at(a, at_a);
+        const Intervals& in_b = samples_at(b, at_b);
+        Bands::add_run(result, {left, right, combine(in_a, in_b, choose)});
+        if (at_a < a.size() && a[at_a].right == right) ++at_a;
+        if (at_b < b.size() && b[at_b].right == right) ++at_b;
+        x = right;
+    }
+    return result;
 }
 
-// The one form: rows of equal runs as high as they go.
-std::vector<SampleBlock> blocks_of(const Grid& grid, const std::vector<Intervals>& cells)
+// The one form of a set: rows of equal runs as high as they go.
+std::vector<SampleBlock> combine(Bands a, Bands b, Choose choose)
 {
     std::vector<SampleBlock> blocks;
     std::vector<Run> runs;
     int top = 0;
-    const auto emit = [&](int bottom) {
+    for (int y = std::min(a.next(INT_MIN), b.next(INT_MIN)); y != Bands::end;
+         y = std::min(a.next(y), b.next(y))) {
+        std::vector<Run> below = combine(a.take(y), b.take(y), choose);
+        if (below == runs) continue;
         for (const Run& run : runs)
             for (const Interval& samples : run.samples)
                 blocks.push_back(
-                    {{run.left, top, run.right - run.left, bottom - top}, samples.first, samples.last});
-    };
-    for (std::size_t row = 0; row < grid.rows(); ++row) {
-        std::vector<Run> below =
-            runs_of_row(grid, std::span(cells).subspan(row * grid.columns(), grid.columns()));
-        if (below == runs) continue;
-        emit(grid.y[row]);
+                    {{run.left, top, run.right - run.left, y - top}, samples.first, samples.last});
         runs = std::move(below);
-        top = grid.y[row];
+        top = y;
     }
-    if (grid.rows() > 0) emit(grid.y.back());
     return blocks;
 }
 
-std::vector<SampleBlock> combine(std::span<const SampleBlock> a, std::span<const SampleBlock> b,
-                                 Choose choose)
+std::vector<SampleBlock> without_empty(std::span<const SampleBlock> blocks)
 {
-    const Grid grid{cuts({a, b}, &PixelRect::x, &PixelRect::width),
-                    cuts({a, b}, &PixelRect::y, &PixelRect::height)};
-    std::vector<Intervals> cells = fill(grid, a);
-    const std::vector<Intervals> others = fill(grid, b);
-    for (std::size_t i = 0; i < cells.size(); ++i) cells[i] = combine(cells[i], others[i], choose);
-    return blocks_of(grid, cells);
+    std::vector<SampleBlock> some;
+    for (const SampleBlock& block : blocks)
+        if (!block.empty()) some.push_back(block);
+    return some;
 }
+
+constexpr Choose either = [](bool in_a, bool in_b) { return in_a || in_b; };
 
 // The number at the front of the text, which it is cut off together with the character that ends it (0: none).
 template <class Number>
@@ -203,22 +268,6 @@ std::optional<SampleBlock> block_from_text(std::string_view text)
     return block;
 }
 
-// Whether the grid of these blocks would take more time and memory than any that parts and checkpoints make: those have
-// some 256 x 256 cells, and a few blocks for each.
-bool is_too_scattered(std::span<const SampleBlock> blocks)
-{
-    constexpr std::size_t most_cells = std::size_t{1} << 22;
-    const Grid grid{cuts({blocks}, &PixelRect::x, &PixelRect::width),
-                    cuts({blocks}, &PixelRect::y, &PixelRect::height)};
-    const std::size_t cells = grid.columns() * grid.rows();
-    std::size_t covered = 0;
-    for (const SampleBlock& block : blocks)
-        covered +=
-            (position(grid.x, block.pixels.x + block.pixels.width) - position(grid.x, block.pixels.x)) *
-            (position(grid.y, block.pixels.y + block.pixels.height) - position(grid.y, block.pixels.y));
-    return cells > most_cells || covered > most_cells || blocks.size() > 1000 + 64 * cells;
-}
-
 } // namespace
 
 std::uint64_t SampleBlock::count() const
@@ -231,12 +280,8 @@ std::uint64_t SampleBlock::count() const
 SampleSet::SampleSet(const SampleBlock& block) : SampleSet(std::span(&block, 1)) {}
 
 SampleSet::SampleSet(std::span<const SampleBlock> blocks)
-{
-    std::vector<SampleBlock> some;
-    for (const SampleBlock& block : blocks)
-        if (!block.empty()) some.push_back(block);
-    blocks_ = combine(some, {}, [](bool in_a, bool) { return in_a; });
-}
+    : blocks_(combine(Bands(without_empty(blocks)), Bands({}), either))
+{}
 
 std::uint64_t SampleSet::count() const
 {
@@ -248,41 +293,47 @@ std::uint64_t SampleSet::count() const
 SampleSet operator|(const SampleSet& a, const SampleSet& b)
 {
     SampleSet result;
-    result.blocks_ = combine(a.blocks_, b.blocks_, [](bool in_a, bool in_b) { return in_a || in_b; });
+    result.blocks_ = combine(Bands(a.blocks_), Bands(b.blocks_), either);
     return result;
 }
 
 SampleSet operator&(const SampleSet& a, const SampleSet& b)
 {
     SampleSet result;
-    result.blocks_ = combine(a.blocks_, b.blocks_, [](bool in_a, bool in_b) { return in_a && in_b; });
+    result.blocks_ =
+        combine(Bands(a.blocks_), Bands(b.blocks_), [](bool in_a, bool in_b) { return in_a && in_b; });
     return result;
 }
 
 SampleSet operator-(const SampleSet& a, const SampleSet& b)
 {
     SampleSet result;
-    result.blocks_ = combine(a.blocks_, b.blocks_, [](bool in_a, bool in_b) { return in_a && !in_b; });
+    result.blocks_ =
+        combine(Bands(a.blocks_), Bands(b.blocks_), [](bool in_a, bool in_b) { return in_a && !in_b; });
     return result;
 }
 
 SampleSet::Range SampleSet::samples_per_pixel(const PixelRect& window) const
 {
-    const SampleBlock whole{window, 0, max_samples_per_pixel};
-    const Grid grid{cuts({blocks_, std::span(&whole, 1)}, &PixelRect::x, &PixelRect::width),
-                    cuts({blocks_, std::span(&whole, 1)}, &PixelRect::y, &PixelRect::height)};
-    const std::vector<Intervals> cells = fill(grid, blocks_);
     Range range{UINT64_MAX, 0};
-    for (std::size_t row = 0; row < grid.rows(); ++row) {
-        for (std::size_t column = 0; column < grid.columns(); ++column) {
-            if (grid.x[column] < window.x || grid.x[column] >= window.x + window.width ||
-                grid.y[row] < window.y || grid.y[row] >= window.y + window.height)
-                continue;
+    const auto note = [&](std::uint64_t count) {
+        range = {std::min(range.least, count), std::max(range.most, count)};
+    };
+    Bands bands(blocks_);
+    const int bottom = window.y + window.height;
+    const int right = window.x + window.width;
+    // From the window's first row.
+    for (int y = window.y; y < bottom; y = bands.next(y)) {
+        int x = window.x; // up to which all pixels are seen
+        for (const Run& run : bands.take(y)) {
+            if (run.right <= window.x || run.left >= right) continue;
+            if (run.left > x) note(0);
             std::uint64_t count = 0;
-            for (const Interval& samples : cells[row * grid.columns() + column])
-                count += samples.last - samples.first;
-            range = {std::min(range.least, count), std::max(range.most, count)};
+            for (const Interval& samples : run.samples) count += samples.last - samples.first;
+            note(count);
+            x = run.right;
         }
+        if (x < right) note(0);
     }
     return range;
 }
@@ -306,8 +357,13 @@ std::optional<SampleSet> SampleSet::from_text(std::string_view text)
         blocks.push_back(*block);
         text.remove_prefix(std::min(end + 1, text.size()));
     }
-    if (is_too_scattered(blocks)) return std::nullopt;
-    return SampleSet(blocks);
+    SampleSet result;
+    try {
+        result.blocks_ = combine(Bands(blocks, most_pieces_of_text), Bands({}), either);
+    } catch (const TooManyPieces&) {
+        return std::nullopt;
+    }
+    return result;
 }
 
 SampleSet part_of(const PixelRect& window, std::uint64_t samples_per_pixel, PartBy by, std::uint64_t index,

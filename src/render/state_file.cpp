@@ -10,10 +10,10 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <charconv>
 #include <functional>
 #include <map>
 #include <new>
-#include <sstream>
 
 #include <fmt/format.h>
 
@@ -149,16 +149,39 @@ private:
     std::vector<std::size_t> used_;
 };
 
-void set_row(Film& film, int y, std::span<const std::uint32_t> row, const std::vector<std::size_t>& used)
+// Whether so many samples can have such sums (film.h).
+bool is_possible(const AllWords& words, std::uint64_t samples)
+{
+    const std::uint64_t count = words[24];
+    const std::uint64_t contributing = words[25];
+    if (count > samples || contributing > count) return false;
+    // The highest words; |sample| < 2^37 and squares < 2^36 in units of 2^-64, large squares < 2^74 in units of 2^-20.
+    const auto is_below = [&](std::size_t word, std::uint64_t largest) {
+        const auto high = static_cast<std::int32_t>(words[word]);
+        return std::abs(static_cast<std::int64_t>(high)) <= static_cast<std::int64_t>(largest) + 1;
+    };
+    for (std::size_t channel = 0; channel < 3; ++channel)
+        if (!is_below(4 * channel + 3, count << 5) || !is_below(12 + 4 * channel + 3, count << 4) ||
+            !is_below(small_count + 4 * channel + 3, count))
+            return false;
+    return true;
+}
+
+// Returns whether all of the row is possible.
+bool set_row(Film& film, int y, std::span<const std::uint32_t> row, const std::vector<std::size_t>& used,
+             std::uint64_t samples)
 {
     const PixelRect& window = film.window();
     const std::uint32_t* in = row.data();
+    bool possible = true;
     for (int x = window.x; x < window.x + window.width; ++x) {
         in += 3;
         AllWords words{};
         for (const std::size_t i : used) words[i] = *in++;
+        possible = possible && is_possible(words, samples);
         set_words(film, {x, y}, words);
     }
+    return possible;
 }
 
 // The hash of a file is that of its header, of its channels' names and of the hashes of its rows.
@@ -187,20 +210,59 @@ std::string left_out_text(const LeftOut& left_out)
                        bits(first.value.b));
 }
 
-LeftOut left_out_from(const std::string& text)
+[[noreturn]] void reject(std::string_view name)
 {
-    std::istringstream in(text);
+    throw Error(fmt::format("{} in its header makes no sense", name));
+}
+
+// The text must consist of at least one number and at most so many, with one space between two.
+std::vector<std::uint64_t> numbers_from(std::string_view name, std::string_view text, std::size_t most)
+{
+    std::vector<std::uint64_t> numbers;
+    for (bool more = true; more;) {
+        std::uint64_t number = 0;
+        const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), number);
+        if (problem != std::errc() || numbers.size() == most) reject(name);
+        numbers.push_back(number);
+        text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+        more = text.starts_with(' ');
+        if (more) text.remove_prefix(1);
+    }
+    if (!text.empty()) reject(name);
+    return numbers;
+}
+
+LeftOut left_out_from(const std::string& text, const PixelRect& window)
+{
+    const std::string_view name = "plumb:stateLeftOut";
+    const std::vector<std::uint64_t> numbers = numbers_from(name, text, 8);
     LeftOut left_out;
-    int verdict = 0;
-    std::uint32_t bits[3] = {};
-    in >> left_out.count;
-    if (left_out.count == 0) return left_out;
-    LeftOut::Sample& first = left_out.first;
-    in >> first.pixel.x >> first.pixel.y >> first.index >> verdict >> bits[0] >> bits[1] >> bits[2];
-    first.verdict = static_cast<Verdict>(verdict);
-    first.value = {std::bit_cast<float>(bits[0]), std::bit_cast<float>(bits[1]),
-                   std::bit_cast<float>(bits[2])};
+    left_out.count = numbers[0];
+    if (numbers.size() == 1 && left_out.count == 0) return left_out;
+    const auto is_inside = [](std::uint64_t at, int first, int size) {
+        return at >= static_cast<std::uint64_t>(first) && at < static_cast<std::uint64_t>(first + size);
+    };
+    if (numbers.size() != 8 || left_out.count == 0 || !is_inside(numbers[1], window.x, window.width) ||
+        !is_inside(numbers[2], window.y, window.height) ||
+        numbers[4] > static_cast<std::uint64_t>(Verdict::out_of_range) ||
+        std::any_of(numbers.begin() + 5, numbers.end(), [](std::uint64_t bits) { return bits > UINT32_MAX; }))
+        reject(name);
+    const auto value = [](std::uint64_t bits) {
+        return std::bit_cast<float>(static_cast<std::uint32_t>(bits));
+    };
+    left_out.first.pixel = {static_cast<int>(numbers[1]), static_cast<int>(numbers[2])};
+    left_out.first.index = numbers[3];
+    left_out.first.verdict = static_cast<Verdict>(numbers[4]);
+    left_out.first.value = {value(numbers[5]), value(numbers[6]), value(numbers[7])};
     return left_out;
+}
+
+RayCounts rays_from(const std::string& text)
+{
+    const std::string_view name = "plumb:stateRays";
+    const std::vector<std::uint64_t> numbers = numbers_from(name, text, 3);
+    if (numbers.size() != 3) reject(name);
+    return {numbers[0], numbers[1], numbers[2]};
 }
 
 // What a reader of a state's header looks for.
@@ -247,16 +309,23 @@ StateFile empty_state(const WordImage& image)
     if (const int version = entries.get<int>("plumb:state"); version != format_version)
         throw Error(
             fmt::format("its format has the version {}, and this program knows {}", version, format_version));
+    const PixelRect& data = image.data;
+    if (data.x < 0 || data.y < 0 || data.width < 1 || data.height < 1 ||
+        data.width > image.full_width - data.x || data.height > image.full_height - data.y)
+        throw Error("its pixels are not those of a picture");
     const std::string& text = entries.get<std::string>("plumb:stateSamples");
     const auto samples = text == no_samples ? SampleSet() : SampleSet::from_text(text);
-    if (!samples) throw Error("plumb:stateSamples in its header makes no sense");
-    StateFile file{{Film(image.data, image.full_width, image.full_height), *samples, {}, {}},
+    if (!samples || !(*samples - SampleSet(SampleBlock{data, 0, film_max_samples})).empty())
+        reject("plumb:stateSamples");
+    const auto seconds = static_cast<double>(entries.get<float>("plumb:stateSeconds"));
+    constexpr double longest = 1e12;
+    if (!(seconds >= 0.0 && seconds <= longest)) reject("plumb:stateSeconds");
+    const RayCounts rays = rays_from(entries.get<std::string>("plumb:stateRays"));
+    const LeftOut left_out = left_out_from(entries.get<std::string>("plumb:stateLeftOut"), data);
+    StateFile file{{Film(data, image.full_width, image.full_height), *samples, rays, left_out},
                    without(header, "plumb:state"),
                    {image.full_width, image.full_height}};
-    std::istringstream rays(entries.get<std::string>("plumb:stateRays"));
-    rays >> file.state.rays.camera >> file.state.rays.bounce >> file.state.rays.shadow;
-    file.state.left_out = left_out_from(entries.get<std::string>("plumb:stateLeftOut"));
-    file.state.seconds = static_cast<double>(entries.get<float>("plumb:stateSeconds"));
+    file.state.seconds = seconds;
     return file;
 }
 
@@ -292,17 +361,37 @@ std::vector<unsigned char> encode_state(const RenderState& state, Vec2i resoluti
     });
 }
 
+std::optional<Metadata> read_state_header(const std::filesystem::path& path)
+{
+    std::optional<Metadata> header;
+    try {
+        read_words(
+            path,
+            [&](const WordImage& image) -> std::vector<std::string> {
+                if (Entries(image.metadata).has("plumb:state"))
+                    header = without(ours(image.metadata), "plumb:state");
+                throw Error("the header is enough");
+            },
+            [](int, std::span<const std::uint32_t>) {});
+    } catch (const Error&) { // that, or it is no picture
+    }
+    return header;
+}
+
 StateFile read_state(const std::filesystem::path& path)
 {
     std::optional<StateFile> file;
     std::string expected_hash;
     Hash128 hash;
     std::vector<std::size_t> used;
+    std::uint64_t samples = 0; // of a pixel, at most
+    bool possible = true;
     try {
         read_words(
             path,
             [&](const WordImage& image) {
                 file.emplace(empty_state(image));
+                samples = file->state.taken.samples_per_pixel(image.data).most;
                 std::vector<std::string> names;
                 for (std::size_t i = 0; i < word_count; ++i) {
                     const std::string& name = word_names()[i];
@@ -319,9 +408,10 @@ StateFile read_state(const std::filesystem::path& path)
             },
             [&](int y, std::span<const std::uint32_t> row) {
                 hash.update(hash_of(row));
-                set_row(file->state.film, y, row, used);
+                possible = set_row(file->state.film, y, row, used, samples) && possible;
             });
         if (hash.hex() != expected_hash) throw Error("it is damaged: its hash is wrong");
+        if (!possible) throw Error("it has sums that its samples cannot have");
     } catch (const Error& error) {
         throw Error(fmt::format("cannot go on from '{}': {}", path.string(), error.what()));
     }

@@ -28,14 +28,12 @@ double seconds_since(Clock::time_point start)
 std::vector<InputFile> input_files(const Expansion& expansion, const std::vector<std::filesystem::path>& read)
 {
     std::vector<InputFile> files;
-    for (const auto& file : expansion.files) {
-        Hash128 hash;
-        hash.update(file->text());
-        files.push_back({file->path(), hash.hex()});
-    }
+    for (const auto& file : expansion.files) files.push_back({file->path(), {}});
     const std::size_t first = files.size();
     for (const std::filesystem::path& file : read) files.push_back({file, {}});
-    parallel_for(read.size(), 0, [&](std::size_t i) { files[first + i].hash = hash_of_files({read[i]}); });
+    parallel_for(files.size(), 0, [&](std::size_t i) {
+        files[i].hash = i < first ? sha256(expansion.files[i]->text()) : sha256_of_file(read[i - first]);
+    });
     return files;
 }
 
@@ -43,11 +41,8 @@ std::vector<InputFile> input_files(const Expansion& expansion, const std::vector
 std::string input_hash(const std::vector<InputFile>& files, const Dialect& dialect,
                        const LoadOptions& options)
 {
-    Hash128 hash;
-    const auto add = [&hash](std::string_view text) {
-        hash.update(fmt::format("{}:", text.size()));
-        hash.update(text);
-    };
+    std::string all;
+    const auto add = [&all](std::string_view text) { all += fmt::format("{}:{}", text.size(), text); };
     for (const InputFile& file : files) add(file.hash);
     for (const auto& [name, value] : options.definitions) add(fmt::format("{}={}", name, value));
     add(options.integrator.value_or(""));
@@ -55,7 +50,7 @@ std::string input_hash(const std::vector<InputFile>& files, const Dialect& diale
     if (options.resolution) add(fmt::format("{}x{}", options.resolution->x, options.resolution->y));
     add(fmt::format("{} {} {} {} {}", dialect.mirrored_view, dialect.emitters_absorb,
                     dialect.point_takes_power, dialect.environment_flipped, dialect.environment_scale));
-    return hash.hex();
+    return sha256(all);
 }
 
 // The root element must be a <scene>, and of ours.

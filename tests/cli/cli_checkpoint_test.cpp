@@ -50,6 +50,18 @@ TEST_CASE("a rendering that is gone on from gives the same file", "[cli][checkpo
         CHECK(other.exit_code == 1);
         CHECK(other.err == "error: 'c.exr' is there already: go on from it with --resume, or remove it\n");
     }
+    SECTION("nor is one of which only the previous generation is left")
+    {
+        std::filesystem::remove(folder / "c.exr");
+        const RunResult other =
+            folder.run({"scene.xml", "-o", "b.exr", "--spp", "60", "--checkpoint", "c.exr"});
+        CHECK(other.exit_code == 1);
+        CHECK(other.err ==
+              "error: 'c.previous.exr' is there already: go on from it with --resume, or remove it\n");
+        CHECK(folder.run({"scene.xml", "-o", "b.exr", "--spp", "50", "--checkpoint", "c.exr", "--resume"})
+                  .exit_code == 0);
+        CHECK(read_bytes(folder / "b.exr") == read_bytes(folder / "whole.exr"));
+    }
     SECTION("a damaged generation is said to be so, and the previous one taken")
     {
         const std::string good = read_bytes(folder / "c.exr");
@@ -108,7 +120,7 @@ TEST_CASE("a checkpoint of another rendering is refused with the reason", "[cli]
 
 TEST_CASE("a signal ends a rendering with picture and checkpoint", "[cli][checkpoint]")
 {
-    const int signal = GENERATE(SIGINT, SIGTERM);
+    const int signal = GENERATE(SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1, SIGXCPU);
     const SceneFolder folder;
     REQUIRE(folder.run({"scene.xml", "-o", "whole.exr", "--spp", "40000", "--crop", "20,16,4,4"}).exit_code ==
             0);
@@ -289,4 +301,53 @@ TEST_CASE("work from before the scene language changed is neither gone on from n
     CHECK_THAT(merged.err, ContainsSubstring("'c.exr' was made with version 1 of the scene language") &&
                                ContainsSubstring("directional lights"));
     CHECK_FALSE(std::filesystem::exists(folder / "b.exr"));
+}
+
+namespace {
+
+// Sends the signals one after the other to a rendering that has begun, of a scene that takes long.
+RunResult run_and_signal(const SceneFolder& folder, Names words, const std::vector<int>& signals)
+{
+    return run_program(words, folder.path(), "", [&](pid_t process) {
+        for (int i = 0; i < 3000 && !is_there(folder / "c.exr"); ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        for (const int signal : signals) {
+            kill(process, signal);
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        }
+    });
+}
+
+} // namespace
+
+TEST_CASE("signals that come in series do not lose the last checkpoint", "[cli][checkpoint]")
+{
+    const SceneFolder folder;
+    const Names words = {PLUMB_RENDERER,
+                         "scene.xml",
+                         "-o",
+                         "a.exr",
+                         "--spp",
+                         "400000",
+                         "--crop",
+                         "20,16,4,4",
+                         "--checkpoint",
+                         "c.exr",
+                         "--checkpoint-every",
+                         "0.01s"};
+    // The shell and the terminal both tell of a hang-up; SIGXCPU comes every second.
+    const RunResult stopped = run_and_signal(folder, words, {SIGHUP, SIGHUP, SIGXCPU, SIGUSR1});
+    CHECK(stopped.exit_code == 128 + SIGHUP);
+    CHECK_THAT(stopped.err, ContainsSubstring("; to go on:"));
+    CHECK(is_there(folder / "a.exr"));
+}
+
+TEST_CASE("a signal that nohup ignores stays ignored", "[cli][checkpoint]")
+{
+    const SceneFolder folder;
+    const Names words = {"/bin/sh", "-c",
+                         "trap '' HUP; exec '" PLUMB_RENDERER
+                         "' scene.xml -o a.exr --spp 400000 --crop 20,16,4,4 "
+                         "--checkpoint c.exr --checkpoint-every 0.01s"};
+    CHECK(run_and_signal(folder, words, {SIGHUP, SIGTERM}).exit_code == 128 + SIGTERM);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "plumb/hash.h"
 #include "support/catch.h"
+#include "support/temp_folder.h"
 
 using namespace plumb;
 
@@ -22,6 +23,21 @@ TEST_CASE("hash: published values of MurmurHash3_x64_128 with seed 0", "[unit][h
     CHECK(hash("hello, world") == "342fac623a5ebc8e4cdcbc079642414d");
     CHECK(hash("19 Jan 2038 at 3:14:07 AM") == "b89e5988b737affc664fc2950231b2cb");
     CHECK(hash("The quick brown fox jumps over the lazy dog.") == "cd99481f9ee902c9695da1a38987b6e7");
+}
+
+TEST_CASE("hash: SHA-256 of FIPS 180-4's examples, and of files", "[unit][hash]")
+{
+    CHECK(sha256("") == "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+    CHECK(sha256("abc") == "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+    CHECK(sha256("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq") ==
+          "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1");
+    const std::string million(1000000, 'a');
+    const std::string expected = "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0";
+    CHECK(sha256(million) == expected);
+    const TempFolder folder;
+    CHECK(sha256_of_file(folder.write("a", million)) == expected);
+    CHECK(sha256_of_file(folder.write("b", "abc")) == sha256("abc"));
+    CHECK(sha256_of_file(folder / "none").empty());
 }
 
 TEST_CASE("hash: pieces hash like the whole", "[unit][hash]")

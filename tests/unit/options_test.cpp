@@ -297,3 +297,49 @@ TEST_CASE("words of a choice are checked", "[unit][options]")
     CHECK(usage_error("s.xml -D name") == "--define must be name=value, not 'name'");
     CHECK(usage_error("s.xml -D =value") == "--define must be name=value, not '=value'");
 }
+
+TEST_CASE("of every option it is decided what it does to a picture", "[unit][options]")
+{
+    for (const OptionRow& row : option_rows()) {
+        INFO(row.names);
+        CHECK(row.effect != Effect::undecided);
+        // Only the command line names files.
+        const std::string_view value = row.value;
+        if (value.find("FILE") != value.npos || value.find("FOLDER") != value.npos)
+            CHECK(row.effect == Effect::run);
+        // An option of `renderer replay` or of the scene changes samples, but for which one is replayed and what is printed.
+        if (row.goes_with(Verb::replay) && (row.topic == Topic::scene || row.topic == Topic::picture))
+            CHECK(row.effect == Effect::samples);
+        // No word of --help, or --quiet, from a header.
+        if (row.topic == Topic::about || row.topic == Topic::output)
+            CHECK((row.effect == Effect::run || row.goes_with(Verb::render)));
+    }
+}
+
+TEST_CASE("a picture's header chooses what is in the picture, and nothing else", "[unit][options]")
+{
+    const Options options =
+        options_of_header("types", {"--spp", "7", "--crop", "1,2,3,4", "--define", "a=b", "--no-variance"});
+    CHECK(options.subject == "types");
+    CHECK(options.verb == Verb::render);
+    CHECK(options.load.samples_per_pixel == 7);
+    CHECK(options.render.crop == PixelRect{1, 2, 3, 4});
+    CHECK_FALSE(options.variance);
+    for (const OptionRow& row : option_rows()) {
+        INFO(row.names);
+        std::vector<std::string> words = {std::string(row.long_name())};
+        if (row.takes_value()) words.emplace_back("1");
+        if (!row.changes_picture()) CHECK_THROWS_AS(options_of_header("a.xml", words), UsageError);
+    }
+    for (const std::vector<std::string>& words :
+         std::vector<std::vector<std::string>>{{"other.xml"},
+                                               {""},
+                                               {"-"},
+                                               {"--"},
+                                               {"--bogus"},
+                                               {"-o", "x.exr"},
+                                               {"--spp"},
+                                               {"--spp", "0"},
+                                               {"--spp=4", "--spp=5"}})
+        CHECK_THROWS_AS(options_of_header("a.xml", words), UsageError);
+}

@@ -14,9 +14,10 @@ TEST_CASE("JSON strings are escaped", "[unit][json]")
 {
     CHECK(json_string("plain") == "\"plain\"");
     CHECK(json_string("a\"b\\c") == "\"a\\\"b\\\\c\"");
-    CHECK(json_string("\n\r\t\x01\x1f\x7f") == "\"\\n\\r\\t\\u0001\\u001f\x7f\"");
+    CHECK(json_string("\n\r\t\x01\x1f\x7f") == "\"\\n\\r\\t\\u0001\\u001f\\u007f\"");
     CHECK(json_string(std::string_view("a\0b", 3)) == "\"a\\u0000b\"");
     CHECK(json_string("Möbius") == "\"Möbius\"");
+    CHECK(json_string("\u009b31m\u202e") == "\"\\u009b31m\\u202e\"");
     CHECK(json_string("\xff") == "\"\xef\xbf\xbd\"");
 }
 

@@ -7,6 +7,7 @@
 #include "support/random.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <set>
 #include <tuple>
 
@@ -111,24 +112,39 @@ TEST_CASE("the text of a set of samples", "[unit][sample_set]")
         CHECK_FALSE(SampleSet::from_text(wrong));
 }
 
-TEST_CASE("texts of scattered blocks that would take all memory are refused", "[unit][sample_set]")
+TEST_CASE("sets of scattered blocks take the time and the memory of their blocks", "[unit][sample_set]")
 {
-    std::string diagonal; // each block cuts the whole picture
+    // 60,000 single pixels, no two in one row or column: a grid through all of them has 3.6e9 cells.
+    std::string scattered;
+    for (int i = 0; i < 60000; ++i)
+        scattered += fmt::format("{}{},{},1,1:0-4", i == 0 ? "" : " ", i * 7 % 60000, i);
+    const auto set = SampleSet::from_text(scattered);
+    REQUIRE(set);
+    CHECK(set->blocks().size() == 60000);
+    CHECK(set->text() == scattered);
+    const PixelRect window{0, 0, 60000, 60000};
+    CHECK((SampleSet(SampleBlock{window, 0, 4}) - *set).count() == (60000ull * 60000 - 60000) * 4);
+    CHECK(set->samples_per_pixel(window).least == 0);
+    CHECK(set->samples_per_pixel(window).most == 4);
+}
+
+TEST_CASE("blocks that cut each other into too many pieces are no set", "[unit][sample_set]")
+{
+    // Strips across strips, each with other samples: 16 million pieces of 8,000 blocks.
+    std::string crossing;
     for (int i = 0; i < 4000; ++i)
-        diagonal += fmt::format("{}{},{},1,1:0-4", i == 0 ? "" : " ", 16 * i, 16 * i);
-    CHECK_FALSE(SampleSet::from_text(diagonal));
-    std::string covers; // each covers all cells
-    for (int i = 0; i < 500; ++i)
-        covers += fmt::format("{}{},{},{},{}:0-4", i == 0 ? "" : " ", i, i, 2000 - 2 * i, 2000 - 2 * i);
-    CHECK_FALSE(SampleSet::from_text(covers));
-    std::string times; // all in one cell
-    for (int i = 0; i < 5000; ++i)
-        times += fmt::format("{}0,0,1,1:{}-{}", i == 0 ? "" : " ", 2 * i, 2 * i + 1);
-    CHECK_FALSE(SampleSet::from_text(times));
-    // The most scattered part of the largest picture is not.
-    const SampleSet part = part_of({0, 0, 65536, 65536}, 16, PartBy::tiles, 1, 3);
-    CHECK(part.blocks().size() > 10000);
-    CHECK(SampleSet::from_text(part.text()) == part);
+        crossing += fmt::format("{0},0,1,60000:{1}-{2} 0,{0},60000,1:{3}-{4} ", 2 * i, 4 * i, 4 * i + 1,
+                                4 * i + 2, 4 * i + 3);
+    crossing.pop_back();
+    CHECK_FALSE(SampleSet::from_text(crossing));
+    // As many blocks on one pixel, each with other samples, are no more than as many.
+    std::string one_pixel;
+    for (int i = 0; i < 60000; ++i)
+        one_pixel += fmt::format("{}0,0,1,1:{}-{}", i == 0 ? "" : " ", 2 * i, 2 * i + 1);
+    const auto set = SampleSet::from_text(one_pixel);
+    REQUIRE(set);
+    CHECK(set->count() == 60000);
+    CHECK(set->text() == one_pixel);
 }
 
 TEST_CASE("parts are disjoint, complete and of about one size", "[unit][sample_set]")

@@ -9,6 +9,7 @@
 #include "support/catch.h"
 #include "support/temp_folder.h"
 
+#include <ctime>
 #include <limits>
 
 using namespace plumb;
@@ -279,4 +280,15 @@ TEST_CASE("the exit code of a batch is its worst verdict's", "[unit][suite]")
     CHECK(code({passes, undecided, passes}) == 4);
     CHECK(code({undecided, differs, passes, not_run}) == 3);
     CHECK(code({undecided, differs, error, passes}) == 1);
+}
+
+TEST_CASE("a suite of many sample counts is read in the time of many", "[unit][batch]")
+{
+    const SuiteFolder folder;
+    std::string counts;
+    for (int i = 1; i <= 20000; ++i) counts += std::to_string(i) + " ";
+    const std::clock_t start = std::clock();
+    CHECK(folder.plan("<suite><render scene=\"a.xml\" spp=\"" + counts + "\"/></suite>").size() == 20000);
+    // The square of it took more than a minute.
+    CHECK(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC < 20.0);
 }

@@ -6,6 +6,7 @@
 #include "cli/batch/picture_data.h"
 #include "cli/batch/report_page.h"
 
+#include "core/visible_text.h"
 #include "plumb/error.h"
 
 #include <fstream>
@@ -56,7 +57,8 @@ std::string script_text(std::string text)
 std::string html_text(std::string_view text)
 {
     std::string result;
-    for (const char c : text) result += c == '<' ? "&lt;" : c == '&' ? "&amp;" : std::string(1, c);
+    for (const char c : visible_text(text))
+        result += c == '<' ? "&lt;" : c == '&' ? "&amp;" : std::string(1, c);
     return result;
 }
 

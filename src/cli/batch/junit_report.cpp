@@ -12,12 +12,17 @@ namespace plumb {
 
 namespace {
 
-// As the value of an attribute or as text. XML 1.0 has no control characters but these three, nor U+FFFE and U+FFFF.
+// As the value of an attribute or as text. XML 1.0 has no control characters but these three, nor U+FFFE and U+FFFF
+// (section 2.2); what shows it may be a terminal, which the others must not steer.
 std::string xml_text(std::string_view text)
 {
     std::string result;
-    for (const char c : valid_utf8(text)) {
-        switch (c) {
+    const std::string valid = valid_utf8(text);
+    for (std::string_view rest = valid; !rest.empty();) {
+        const std::string_view character = rest.substr(0, utf8_length(rest));
+        rest.remove_prefix(character.size());
+        const char32_t code = code_point(character);
+        switch (code) {
         case '&': result += "&amp;"; break;
         case '<': result += "&lt;"; break;
         case '>': result += "&gt;"; break;
@@ -26,10 +31,12 @@ std::string xml_text(std::string_view text)
         case '\t': result += "&#9;"; break;
         case '\r': result += "&#13;"; break;
         default:
-            if (static_cast<unsigned char>(c) < 0x20)
+            if (code < 0x20 || code == 0xfffe || code == 0xffff)
                 result += "?";
+            else if (steers(character))
+                result += fmt::format("&#{};", static_cast<std::uint32_t>(code));
             else
-                result += c;
+                result += character;
         }
     }
     return result;

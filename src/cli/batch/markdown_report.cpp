@@ -15,17 +15,18 @@ namespace {
 std::string cell(std::string_view text)
 {
     std::string result;
-    for (const char c : valid_utf8(text)) {
-        if (c == '\n')
-            result += "<br>";
-        else if (c == '<')
-            result += "&lt;";
-        else if (c == '&')
-            result += "&amp;";
-        else if (std::string_view("|*_`[]\\~").find(c) != std::string_view::npos)
-            result += std::string("\\") + c;
-        else if (static_cast<unsigned char>(c) >= 0x20)
-            result += c;
+    for (const std::string& line : lines_of(text)) {
+        if (!result.empty()) result += "<br>";
+        for (const char c : visible_text(line)) {
+            if (c == '<')
+                result += "&lt;";
+            else if (c == '&')
+                result += "&amp;";
+            else if (std::string_view("|*_`[]\\~").find(c) != std::string_view::npos)
+                result += std::string("\\") + c;
+            else
+                result += c;
+        }
     }
     return result;
 }

@@ -106,8 +106,8 @@ std::string result_line(const BatchResult& result, std::size_t title_width)
     std::optional<double> rmse;
     if (result.comparison) rmse = result.comparison->metrics.rmse;
     std::string line =
-        fmt::format("{:<{}}  {:<9}  {}  {}  {}", result.title, title_width, verdict_word(result.verdict),
-                    number("rmse", rmse), number("noise", result.noise),
+        fmt::format("{:<{}}  {:<9}  {}  {}  {}", visible_text(result.title), title_width,
+                    verdict_word(result.verdict), number("rmse", rmse), number("noise", result.noise),
                     result.up_to_date                         ? "up to date"
                     : result.verdict == BatchVerdict::not_run ? ""
                                                               : duration_text(result.seconds));

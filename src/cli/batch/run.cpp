@@ -5,6 +5,8 @@
 #include "cli/console.h"
 #include "cli/outputs.h"
 
+#include "core/visible_text.h"
+
 #include <charconv>
 #include <chrono>
 #include <fmt/format.h>
@@ -60,7 +62,7 @@ void attempt(BatchResult& result, const std::function<void()>& work)
     } catch (const std::bad_alloc&) {
         fail("error: not enough memory");
     } catch (const std::exception& error) {
-        fail(std::string("error: ") + error.what());
+        fail("error: " + visible_text(error.what()));
     }
     result.seconds = std::chrono::duration<double>(Clock::now() - start).count();
 }
@@ -95,6 +97,12 @@ BatchVerdict verdict_of(CompareOutcome outcome)
     return BatchVerdict::undecided;
 }
 
+// "box_diff.png" for "box.exr".
+std::string difference_of(const std::string& picture)
+{
+    return fs::path(picture).replace_extension().string() + "_diff.png";
+}
+
 void compare_with_reference(const BatchJob& job, const Options& run, const Image& image, BatchResult& result)
 {
     const SuiteEntry& entry = job.entry;
@@ -115,7 +123,7 @@ void compare_with_reference(const BatchJob& job, const Options& run, const Image
                                 entry.reference.string(), error.what()));
     }
     result.verdict = verdict_of(result.comparison->outcome);
-    const std::string difference = fs::path(result.picture).replace_extension().string() + "_diff.png";
+    const std::string difference = difference_of(result.picture);
     write_image(difference, difference_image(image, reference));
     result.difference = difference;
 }
@@ -175,8 +183,10 @@ BatchResult run_entry(const BatchJob& job, BatchContext& context)
                                 context.state.is_up_to_date(result.title, key, options.outputs);
             if (!result.up_to_date) {
                 make_folder(fs::path(stem).parent_path());
-                keep_inputs(context.kept, options.outputs, {}, "it is a scene or a reference of the suite");
-                check_outputs(options.outputs, {});
+                std::vector<std::string> written = options.outputs;
+                if (!job.entry.reference.empty()) written.push_back(difference_of(options.outputs.front()));
+                keep_inputs(context.kept, written, {}, "it is a scene or a reference of the suite");
+                check_outputs(written, {});
                 check_whole(render_and_write(options, scene), result);
                 context.state.note(result.title, key, options.outputs);
             }
@@ -191,7 +201,7 @@ BatchResult run_entry(const BatchJob& job, BatchContext& context)
     return result;
 }
 
-BatchResult make_reference(const BatchJob& job, const Options& run, const std::vector<fs::path>& kept)
+BatchResult make_reference(const BatchJob& job, const Options& run, const KeptFiles& kept)
 {
     BatchResult result = result_of(job, job.reference_words);
     result.title = result.reference;

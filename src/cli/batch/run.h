@@ -5,6 +5,7 @@
 
 #include "cli/batch/result.h"
 #include "cli/batch/state.h"
+#include "cli/outputs.h"
 
 #include <set>
 
@@ -14,8 +15,8 @@ struct BatchContext {
     const Options& options; // of `renderer batch`
     std::filesystem::path folder;
     BatchState state;
-    std::set<std::string> titles;            // that are taken
-    std::vector<std::filesystem::path> kept; // files that no picture may replace
+    std::set<std::string> titles; // that are taken
+    KeptFiles kept;               // that no picture may replace
 };
 
 // Throws Error.
@@ -25,7 +26,6 @@ void make_folder(const std::filesystem::path& folder);
 BatchResult run_entry(const BatchJob& job, BatchContext& context);
 
 // Makes a reference; the result says how that went.
-BatchResult make_reference(const BatchJob& job, const Options& options,
-                           const std::vector<std::filesystem::path>& kept);
+BatchResult make_reference(const BatchJob& job, const Options& options, const KeptFiles& kept);
 
 } // namespace plumb
