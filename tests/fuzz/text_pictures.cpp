@@ -80,7 +80,11 @@ public:
     DecodedPicture read(const std::string& name) const override
     {
         const TextPicture text = read_text_picture(name);
-        DecodedPicture picture{text.data, text.full_width, text.full_height, text.floats, nullptr};
+        DecodedPicture picture;
+        picture.data = text.data;
+        picture.full_width = text.full_width;
+        picture.full_height = text.full_height;
+        picture.channels = text.floats;
         picture.channels.insert(picture.channels.end(), text.words.begin(), text.words.end());
         picture.integer_levels =
             text.integer_levels == 256 || text.integer_levels == 65536 ? text.integer_levels : 0;
