@@ -96,8 +96,8 @@ tree_files() (
 build_folder() {
     case $1 in
         release) printf '%s\n' "$plumb_root/build" ;;
-        dev | debug | asan | arm64) printf '%s\n' "$plumb_root/build-$1" ;;
-        *) die "unknown preset '$1': release, dev, debug, asan or arm64" ;;
+        dev | debug | asan | arm64 | fuzz) printf '%s\n' "$plumb_root/build-$1" ;;
+        *) die "unknown preset '$1': release, dev, debug, asan, arm64 or fuzz" ;;
     esac
 }
 

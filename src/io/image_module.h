@@ -20,6 +20,9 @@ public:
     virtual float* pixels() = 0;
 };
 
+// No picture has a pixel farther than that from the full picture's corner, and none is larger: ends of windows are ints.
+inline constexpr int farthest_pixel = 1 << 30;
+
 // A file's picture: integers are divided by their maximum.
 struct DecodedPicture {
     PixelRect data;

@@ -5,7 +5,7 @@
 #include "core/parallel.h"
 #include "io/image_words.h"
 #include "plumb/error.h"
-#include "plumb/hash.h"
+#include "render/state_hash.h"
 
 #include <algorithm>
 #include <array>
@@ -46,28 +46,6 @@ const std::vector<std::string>& word_names()
         return names;
     }();
     return all;
-}
-
-// The header as one text, in an order that no file changes. Without empty values, which no file keeps.
-std::string text_of(const Metadata& header)
-{
-    const std::map<std::string, MetadataValue> sorted(header.begin(), header.end());
-    std::string text;
-    for (const auto& [name, value] : sorted) {
-        if (value == MetadataValue(std::string())) continue;
-        text += name + "=";
-        if (const int* const integer = std::get_if<int>(&value))
-            text += fmt::format("{}", *integer);
-        else if (const float* const number = std::get_if<float>(&value))
-            text += fmt::format("{:x}", std::bit_cast<std::uint32_t>(*number));
-        else if (const std::string* const string = std::get_if<std::string>(&value))
-            text += *string;
-        else
-            for (const float element : std::get<std::vector<float>>(value))
-                text += fmt::format("{:x} ", std::bit_cast<std::uint32_t>(element));
-        text += "\n";
-    }
-    return text;
 }
 
 AllWords words_of(const Film& film, Vec2i pixel)
@@ -184,22 +162,6 @@ bool set_row(Film& film, int y, std::span<const std::uint32_t> row, const std::v
     return possible;
 }
 
-// The hash of a file is that of its header, of its channels' names and of the hashes of its rows.
-std::string hash_of(std::span<const std::uint32_t> row)
-{
-    Hash128 hash;
-    hash.update({reinterpret_cast<const char*>(row.data()), row.size_bytes()});
-    return hash.hex();
-}
-
-Hash128 begin_hash(const Metadata& header, const std::vector<std::string>& channels)
-{
-    Hash128 hash;
-    hash.update(text_of(header));
-    for (const std::string& name : channels) hash.update(name + "\n");
-    return hash;
-}
-
 std::string left_out_text(const LeftOut& left_out)
 {
     if (left_out.count == 0) return "0";
@@ -285,16 +247,6 @@ private:
     std::map<std::string, MetadataValue> entries_;
 };
 
-// What of a file's header was written by us: not what the format adds.
-Metadata ours(const Metadata& header)
-{
-    Metadata result;
-    for (const auto& entry : header)
-        if (entry.first.starts_with("plumb:") || entry.first == "Software" || entry.first == "worldToCamera")
-            result.push_back(entry);
-    return result;
-}
-
 Metadata without(Metadata header, std::string_view prefix)
 {
     std::erase_if(header, [&](const auto& entry) { return entry.first.starts_with(prefix); });
@@ -303,7 +255,7 @@ Metadata without(Metadata header, std::string_view prefix)
 
 StateFile empty_state(const WordImage& image)
 {
-    const Metadata header = ours(image.metadata);
+    const Metadata header = state_header(image.metadata);
     const Entries entries(header);
     if (!entries.has("plumb:state")) throw Error("it is no checkpoint and no part of a picture");
     if (const int version = entries.get<int>("plumb:state"); version != format_version)
@@ -347,11 +299,11 @@ std::vector<unsigned char> encode_state(const RenderState& state, Vec2i resoluti
     for_each_row(window, [&](int y) {
         std::vector<std::uint32_t> row(image.words_per_row());
         writer.fill(y, row);
-        row_hashes[static_cast<std::size_t>(y - window.y)] = hash_of(row);
+        row_hashes[static_cast<std::size_t>(y - window.y)] = hash_of_row(row);
     });
-    Hash128 hash = begin_hash(image.metadata, image.word_channels);
-    for (const std::string& row_hash : row_hashes) hash.update(row_hash);
-    image.metadata.emplace_back("plumb:stateHash", hash.hex());
+    StateHash hash(image.metadata, image.word_channels);
+    for (const std::string& row_hash : row_hashes) hash.add(row_hash);
+    image.metadata.emplace_back(state_hash_name, hash.hex());
 
     return encode_words(image, [&](int top, int count, std::span<std::uint32_t> rows) {
         parallel_for(static_cast<std::size_t>(count), 0, [&](std::size_t i) {
@@ -382,7 +334,7 @@ StateFile read_state(const std::filesystem::path& path)
 {
     std::optional<StateFile> file;
     std::string expected_hash;
-    Hash128 hash;
+    std::optional<StateHash> hash;
     std::vector<std::size_t> used;
     std::uint64_t samples = 0; // of a pixel, at most
     bool possible = true;
@@ -400,17 +352,17 @@ StateFile read_state(const std::filesystem::path& path)
                     used.push_back(i);
                     names.push_back(name);
                 }
-                const Metadata header = ours(image.metadata);
-                expected_hash = Entries(header).get<std::string>("plumb:stateHash");
-                hash = begin_hash(without(header, "plumb:stateHash"), names);
+                const Metadata header = state_header(image.metadata);
+                expected_hash = Entries(header).get<std::string>(state_hash_name);
+                hash.emplace(header, names);
                 names.insert(names.begin(), {"R", "G", "B"});
                 return names;
             },
             [&](int y, std::span<const std::uint32_t> row) {
-                hash.update(hash_of(row));
+                hash->add(hash_of_row(row));
                 possible = set_row(file->state.film, y, row, used, samples) && possible;
             });
-        if (hash.hex() != expected_hash) throw Error("it is damaged: its hash is wrong");
+        if (hash->hex() != expected_hash) throw Error("it is damaged: its hash is wrong");
         if (!possible) throw Error("it has sums that its samples cannot have");
     } catch (const Error& error) {
         throw Error(fmt::format("cannot go on from '{}': {}", path.string(), error.what()));

@@ -362,6 +362,65 @@ TEST_CASE("pictures that cannot be are errors", "[unit][image]")
     CHECK_THROWS_WITH(Image({0, 0, 5, 5}, 5, 5, {}), ContainsSubstring("0 channels"));
 }
 
+namespace {
+
+// A TIFF file of grey pixels, the first of which is at this column.
+std::string tiff_at(std::uint32_t column, std::uint32_t width)
+{
+    std::string file("II*\0", 4);
+    const auto add = [&file](std::uint32_t value, int bytes) {
+        for (int i = 0; i < bytes; ++i) file += static_cast<char>(value >> 8 * i & 0xff);
+    };
+    constexpr std::uint32_t short_number = 3;
+    constexpr std::uint32_t number = 4;
+    constexpr std::uint32_t fraction = 5;
+    constexpr std::uint32_t entries = 11;
+    constexpr std::uint32_t fractions_at = 8 + 2 + entries * 12 + 4;
+    add(8, 4);
+    add(entries, 2);
+    const auto entry = [&](std::uint32_t tag, std::uint32_t type, std::uint32_t value) {
+        add(tag, 2);
+        add(type, 2);
+        add(1, 4);
+        add(value, 4);
+    };
+    entry(256, number, width);
+    entry(257, number, 1);                  // height
+    entry(258, short_number, 8);            // bits
+    entry(259, short_number, 1);            // not compressed
+    entry(262, short_number, 1);            // 0 is black
+    entry(273, number, fractions_at + 16);  // where the pixels are
+    entry(277, short_number, 1);            // channels
+    entry(278, number, 1);                  // rows in a strip
+    entry(279, number, width);              // bytes in a strip
+    entry(282, fraction, fractions_at + 8); // pixels in a unit
+    entry(286, fraction, fractions_at);     // column, in units
+    add(0, 4);
+    for (const std::uint32_t part : {column, 1u, 1u, 1u}) add(part, 4);
+    return file + std::string(width, '\x64');
+}
+
+} // namespace
+
+// OpenImageIO says of the last two that they were read, and they were not.
+TEST_CASE("pictures far from any corner are read right or refused", "[unit][image]")
+{
+    const TempFolder folder;
+    const auto read = [&](std::uint32_t column) {
+        folder.write("far.tif", tiff_at(column, 200));
+        return read_image(folder / "far.tif", false);
+    };
+    for (const std::uint32_t column : {0u, 5u, 1u << 29}) {
+        const Image image = read(column);
+        const PixelRect& window = image.data_window();
+        CHECK(window.width == 200);
+        CHECK(image.pixel(window.x + 199, window.y)[0] == Approx(100.0 / 255.0));
+    }
+    for (const std::uint32_t column : {1u << 30, 2147483000u, 2147483520u})
+        CHECK_THROWS_WITH(read(column),
+                          ContainsSubstring("its pixels are too far from the picture's corner"));
+}
+
 TEST_CASE("images can be moved", "[unit][image]")
 {
     Image a = numbered({1, 2, 3, 4}, 10, 10);

@@ -89,7 +89,7 @@ DecodedPicture OiioModule::read(const std::string& name) const
     if (spec.depth > 1) throw Error("volumes are not supported");
 
     DecodedPicture picture;
-    picture.data = {spec.x - spec.full_x, spec.y - spec.full_y, spec.width, spec.height};
+    picture.data = data_window_of(spec);
     picture.full_width = spec.full_width;
     picture.full_height = spec.full_height;
     picture.channels = spec.channelnames;

@@ -2,11 +2,13 @@
 
 #include "io/oiio/spec.h"
 
+#include "io/image_module.h"
 #include "io/image_text.h"
 #include "io/oiio/quiet.h"
 #include "plumb/error.h"
 
 #include <OpenImageIO/filesystem.h>
+#include <fmt/format.h>
 
 namespace plumb {
 
@@ -18,6 +20,21 @@ std::unique_ptr<OIIO::ImageInput> open_image(const std::string& name)
     std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(name, &hints);
     if (!input) throw Error(one_line(OIIO::geterror()));
     return input;
+}
+
+PixelRect data_window_of(const OIIO::ImageSpec& spec)
+{
+    // OpenImageIO computes with ints, and of pixels close to the largest it says that they were read when they were not.
+    constexpr int farthest = farthest_pixel / 2;
+    for (const int place : {spec.x, spec.y, spec.full_x, spec.full_y})
+        if (place < -farthest || place > farthest)
+            throw Error(fmt::format(
+                "its pixels are too far from the picture's corner: at {},{}, and the picture at {},{}",
+                spec.x, spec.y, spec.full_x, spec.full_y));
+    for (const int size : {spec.width, spec.height, spec.full_width, spec.full_height})
+        if (size > farthest)
+            throw Error(fmt::format("it is too large: {} x {} pixels", spec.width, spec.height));
+    return {spec.x - spec.full_x, spec.y - spec.full_y, spec.width, spec.height};
 }
 
 Metadata metadata_of(const OIIO::ImageSpec& spec)

@@ -17,6 +17,9 @@ namespace plumb {
 // The file at `name`, opened by a reader for what it holds. Throws Error with the reason.
 std::unique_ptr<OIIO::ImageInput> open_image(const std::string& name);
 
+// The pixels that exist, seen from the corner of the full picture. Throws Error if they are too far from it.
+PixelRect data_window_of(const OIIO::ImageSpec& spec);
+
 Metadata metadata_of(const OIIO::ImageSpec& spec);
 void put_metadata(OIIO::ImageSpec& spec, const Metadata& metadata);
 

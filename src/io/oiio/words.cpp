@@ -34,7 +34,7 @@ OIIO::ImageSpec spec_of(const WordImage& image)
 WordImage header_of(const OIIO::ImageSpec& spec)
 {
     WordImage image;
-    image.data = {spec.x - spec.full_x, spec.y - spec.full_y, spec.width, spec.height};
+    image.data = data_window_of(spec);
     image.full_width = spec.full_width;
     image.full_height = spec.full_height;
     image.metadata = metadata_of(spec);

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Pictures as text, for fuzz targets: what a codec makes of a file, written down. Every text is one; what makes no sense
+// is skipped.
+//
+//     window 0 0 2 1 of 4 4          x, y, width, height; then the size of the full picture
+//     floats R G B                   the channels of floats
+//     words count                    those of 32-bit integers, which come behind them
+//     levels 256                     the values were integers (DecodedPicture::integer_levels)
+//     int plumb:state 2              of the header, one a line
+//     text plumb:inputs 00 a.xml\n01 b.obj
+//     float plumb:envmapScale 0.5
+//     list worldToCamera 1 0 0 0
+//     pixels
+//     ....                           32-bit values, pixel by pixel, the lowest byte first; those that are missing are 0
+//
+// A line `next` ends a picture that is followed by another.
+
+#include "io/image_words.h"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace plumb::fuzz {
+
+struct TextPicture {
+    PixelRect data{0, 0, 1, 1};
+    int full_width = 1;
+    int full_height = 1;
+    std::vector<std::string> floats;
+    std::vector<std::string> words;
+    std::size_t integer_levels = 0;
+    Metadata metadata;
+    std::string values; // as in the file
+
+    std::size_t channels() const { return floats.size() + words.size(); }
+    std::size_t size() const; // how many values the window has
+    std::uint32_t value(std::size_t index) const;
+};
+
+TextPicture parse_picture(std::string_view text);
+std::string picture_text(const TextPicture& picture);
+
+// The texts of the pictures in one, of which there is at least one.
+std::vector<std::string_view> split_pictures(std::string_view text);
+inline constexpr std::string_view picture_separator = "\nnext\n";
+
+// What was asked for and handed over when a picture of words was read last (text_pictures.cpp).
+struct WordsRead {
+    std::vector<std::string> channels;
+    std::vector<std::vector<std::uint32_t>> rows;
+};
+const WordsRead& words_read();
+void forget_words_read();
+
+} // namespace plumb::fuzz

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+
+// Stands in for src/cli/console.cpp: what the program says is looked at, and not printed.
+
+#include "cli/console.h"
+#include "fuzz/fuzz.h"
+
+namespace plumb {
+
+void prepare_console() {}
+
+void print_log(std::string_view text)
+{
+    fuzz::expect_printable(text);
+}
+
+void print_output(std::string_view text)
+{
+    fuzz::expect_printable(text);
+}
+
+void finish_output() {}
+
+bool log_is_terminal()
+{
+    return false;
+}
+
+int terminal_columns()
+{
+    return 80;
+}
+
+void redraw_line(std::string_view) {}
+
+} // namespace plumb

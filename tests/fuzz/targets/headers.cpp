@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+
+// The header of a picture, as `renderer info` prints it and `renderer rerun` obeys it.
+
+#include "cli/commands.h"
+#include "fuzz/fuzz.h"
+#include "fuzz/small_scene.h"
+
+using namespace plumb;
+using namespace plumb::fuzz;
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+{
+    static const auto scene = write_file(small_scene_name, small_scene); // what a header may name
+    static_cast<void>(scene);
+    const std::string picture = write_file("picture.exr", text_of(data, size)).string();
+    allow_our_errors([&] { info_command(parse_options({"info", picture})); });
+    const std::string again = (folder() / "again.exr").string();
+    allow_our_errors([&] {
+        rerun_command(parse_options({"rerun", picture, "-o", again, "--threads", "1"}));
+    });
+    std::filesystem::remove(again);
+    return 0;
+}

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+
+// `renderer merge` of one part or more. Most inputs have the right hashes (state_mutator.h).
+
+#include "cli/commands.h"
+#include "fuzz/fuzz.h"
+#include "fuzz/picture_text.h"
+#include "fuzz/state_mutator.h"
+
+using namespace plumb;
+using namespace plumb::fuzz;
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+{
+    std::vector<std::string> words = {"merge"};
+    for (const std::string_view part : split_pictures(text_of(data, size))) {
+        if (words.size() > 4) break;
+        words.push_back(write_file("part" + std::to_string(words.size()) + ".exr", part).string());
+    }
+    for (const char* output : {"merged.exr", "merged.png"})
+        words.insert(words.end(), {"-o", (folder() / output).string()});
+    words.insert(words.end(), {"--checkpoint", (folder() / "sum.exr").string(), "--allow-missing"});
+    allow_our_errors([&] { merge_command(parse_options(words)); });
+    for (const char* output : {"merged.exr", "merged.png", "sum.exr", "sum.previous.exr"})
+        std::filesystem::remove(folder() / output);
+    return 0;
+}
