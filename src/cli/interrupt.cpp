@@ -35,7 +35,9 @@ InterruptGuard::InterruptGuard(Interruption kind)
     struct sigaction action {};
     action.sa_handler = note_signal;
     action.sa_flags = SA_RESTART;
+    // Of signals that wait together, the first would else be the last one to be noted.
     sigemptyset(&action.sa_mask);
+    for (const int number : numbers) sigaddset(&action.sa_mask, number);
     for (std::size_t i = 0; i < caught; ++i) {
         sigaction(numbers[i], nullptr, &before[i]);
         // A shell starts what runs in the background with SIGINT ignored, nohup with SIGHUP, and they mean it. But whoever

@@ -108,8 +108,10 @@ std::string_view new_manual()
 int new_command(const Options& options)
 {
     write_new(options.subject, first_scene);
-    if (!options.quiet)
-        print_log(fmt::format("{0}: written; to see it:\n    renderer {0}", shell_quote(options.subject)));
+    if (!options.quiet) {
+        print_log(fmt::format("{}: written; to see it:", shell_quote(options.subject)));
+        print_log(fmt::format("    renderer {}", shell_quote(options.subject)));
+    }
     return exit_code::done;
 }
 

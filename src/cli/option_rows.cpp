@@ -263,20 +263,6 @@ bool OptionRow::goes_with(Verb verb) const
     return (verbs & verb_bit(verb)) != 0;
 }
 
-bool OptionRow::changes_scene() const
-{
-    return goes_with(Verb::replay) &&
-           (topic == Topic::scene || topic == Topic::picture || long_name() == "--isa");
-}
-
-bool OptionRow::changes_picture() const
-{
-    constexpr std::string_view others[] = {"--crop", "--exposure", "--no-variance", "--time",
-                                           "--target-error"};
-    return changes_scene() ||
-           (goes_with(Verb::render) && std::ranges::find(others, long_name()) != std::end(others));
-}
-
 std::span<const OptionRow> option_rows()
 {
     return rows;

@@ -321,7 +321,7 @@ std::optional<Metadata> read_state_header(const std::filesystem::path& path)
             path,
             [&](const WordImage& image) -> std::vector<std::string> {
                 if (Entries(image.metadata).has("plumb:state"))
-                    header = without(ours(image.metadata), "plumb:state");
+                    header = without(state_header(image.metadata), "plumb:state");
                 throw Error("the header is enough");
             },
             [](int, std::span<const std::uint32_t>) {});

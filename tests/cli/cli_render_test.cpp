@@ -145,7 +145,7 @@ TEST_CASE("the header says how to make the image again", "[cli][header]")
     const auto found = header(folder / "a.exr");
     CHECK(text(found, "Software") == "Plumb " PLUMB_VERSION);
     CHECK(text(found, "plumb:scene") == "scene.xml");
-    CHECK(text(found, "plumb:inputHash").size() == 32);
+    CHECK(text(found, "plumb:inputHash").size() == 64);
     CHECK(text(found, "plumb:integrator") == "path_mis");
     CHECK(text(found, "plumb:sampler") == "independent");
     CHECK(text(found, "plumb:seed") == "0");

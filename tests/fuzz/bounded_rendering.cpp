@@ -15,7 +15,7 @@ std::atomic<int> questions = 0;
 
 } // namespace
 
-InterruptGuard::InterruptGuard()
+InterruptGuard::InterruptGuard(Interruption)
 {
     questions = 0;
 }

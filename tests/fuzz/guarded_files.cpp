@@ -7,10 +7,23 @@
 #include "io/temporary_file.h"
 #include "plumb/error.h"
 
+#include <fmt/format.h>
+
 #include <fcntl.h>
 #include <unistd.h>
 
 namespace plumb {
+
+std::filesystem::path end_of_links(const std::filesystem::path& path)
+{
+    return path;
+}
+
+std::filesystem::path unfinished_name(const std::filesystem::path& path, std::string_view suffix)
+{
+    std::filesystem::path name = path;
+    return name += fmt::format(".{}", suffix);
+}
 
 TemporaryFile::TemporaryFile(const std::filesystem::path& target)
     : target_(target), final_(target), path_(target)

@@ -3,20 +3,26 @@
 // Stands in for src/cli/console.cpp: what the program says is looked at, and not printed.
 
 #include "cli/console.h"
+#include "core/visible_text.h"
 #include "fuzz/fuzz.h"
 
 namespace plumb {
 
 void prepare_console() {}
 
-void print_log(std::string_view text)
+void print_log(std::string_view line)
 {
-    fuzz::expect_printable(text);
+    fuzz::expect_printable(visible_text(line)); // as src/cli/console.cpp does
+}
+
+void print_log(const Diagnostic& diagnostic)
+{
+    fuzz::expect_printable(diagnostic.text());
 }
 
 void print_output(std::string_view text)
 {
-    fuzz::expect_printable(text);
+    fuzz::expect_printable(visible_text(text));
 }
 
 void finish_output() {}

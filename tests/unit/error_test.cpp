@@ -67,7 +67,7 @@ TEST_CASE("what a file contains cannot steer the terminal", "[unit][error]")
 {
     CHECK(error_text("a\x1B[2Jb", 5, 1) == "scene.xml:1:6: error: wrong\na?[2Jb\n     ^");
     const Diagnostic diagnostic{Severity::error, {}, "unknown \x1B[31m"};
-    CHECK(diagnostic.text() == "error: unknown ?[31m");
+    CHECK(diagnostic.text() == "error: unknown \\x1b[31m");
 }
 
 TEST_CASE("long lines are shown in part", "[unit][error]")

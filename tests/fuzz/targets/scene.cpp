@@ -2,6 +2,7 @@
 
 // Scene files: XML, includes, values, plugins, meshes, Embree; and one sample of what was loaded.
 
+#include "core/visible_text.h"
 #include "fuzz/fuzz.h"
 #include "plumb/scene_file.h"
 
@@ -34,7 +35,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
     allow_our_errors([&] {
         const LoadedScene scene = load_scene(path, options);
         for (const Diagnostic& warning : scene.warnings) expect_printable(warning.text());
-        expect_printable(scene.dialect.reason);
+        expect_printable(visible_text(scene.dialect.reason));
         RenderOptions one_sample;
         one_sample.samples_per_pixel = 1;
         one_sample.threads = 1;
