@@ -66,7 +66,8 @@ inline float clearance(const Vec3f& error, const Vec3f& largest, const Vec3f& no
 // are sums along the normal: 4 for the way to the corner (1 for the difference, 3 for the products and their sum), 6 for
 // the direction (1 for rounding it, 3 for the products and their sum, 2 for the division, which is a reciprocal and a
 // product in Embree). That corners relative to a distant origin are rounded moves the plane by no more than that 1, even
-// of slivers: between the corners, a plane is off by a mean of what they are off.
+// of slivers: between the corners, a plane is off by a mean of what they are off. The bound does not hold for a needle that
+// is seen so nearly edge-on that its apparent height is below one rounding of the way: whether a ray meets it is then noise.
 // tests/statistical/shadow_ray_test.cpp shows what is needed and what it costs.
 inline float end_clearance(float at_point, const Vec3f& normal, const Vec3f& along)
 {

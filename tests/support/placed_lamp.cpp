@@ -122,18 +122,24 @@ PlacedLamp place_lamp(TestRandom& random, LampKind kind, double plane)
     return rounding_error(lamp, 1.0) < 0.1 ? lamp : place_lamp(random, kind, plane);
 }
 
-double rounding_error(const PlacedLamp& lamp, double steepness)
+double height_of(const PlacedLamp& lamp)
 {
-    if (lamp.kind == LampKind::sphere) return 0.0;
-    double shortest = infinity, largest = 0.0;
+    double lowest = infinity;
     for (std::size_t i = 2; i < lamp.corners.size(); ++i) {
         const Vec3d a = Vec3d(lamp.corners[i - 1]) - Vec3d(lamp.corners[0]);
         const Vec3d b = Vec3d(lamp.corners[i]) - Vec3d(lamp.corners[0]);
-        shortest = std::min(shortest, length(cross(a, b)) / std::max(length(a), length(b)));
+        lowest = std::min(lowest, length(cross(a, b)) / std::max(length(a), length(b)));
     }
+    return lowest;
+}
+
+double rounding_error(const PlacedLamp& lamp, double steepness)
+{
+    if (lamp.kind == LampKind::sphere) return 0.0;
+    double largest = 0.0;
     for (const Vec3f& p : lamp.corners)
         largest = std::max(largest, static_cast<double>(max_component(abs(p))));
-    return 2.0 * unit_roundoff * largest / (shortest * steepness);
+    return 2.0 * unit_roundoff * largest / (height_of(lamp) * steepness);
 }
 
 std::unique_ptr<Shape> shape_of(const PlacedLamp& lamp)

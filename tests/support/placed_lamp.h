@@ -37,6 +37,9 @@ double awkward_coordinate(TestRandom& random);
 // plane: the coordinate of its centre, along the axis that it faces where it faces one (two times in three).
 PlacedLamp place_lamp(TestRandom& random, LampKind kind, double plane);
 
+// The lowest height of the lamp's triangles; infinite for a sphere.
+double height_of(const PlacedLamp& lamp);
+
 // By about what fraction the light of a lamp is off because its corners, and the points on it, are rounded to floats, seen
 // with that cosine.
 double rounding_error(const PlacedLamp& lamp, double steepness);
