@@ -84,7 +84,7 @@ install_packages() {
 # Every file of the tree that git would keep, or, without git, every file outside the build folders; from the folder
 # above tools/, each ends with a zero.
 tree_files() (
-    cd -- "$plumb_root"
+    cd -- "$plumb_root" || return
     if command -v git >/dev/null && [[ $(git rev-parse --show-toplevel 2>/dev/null) -ef . ]]; then
         git ls-files --cached --others --exclude-standard -z
     else
@@ -96,8 +96,8 @@ tree_files() (
 build_folder() {
     case $1 in
         release) printf '%s\n' "$plumb_root/build" ;;
-        dev | debug | asan | arm64 | fuzz) printf '%s\n' "$plumb_root/build-$1" ;;
-        *) die "unknown preset '$1': release, dev, debug, asan, arm64 or fuzz" ;;
+        dev | debug | asan | arm64 | fuzz | coverage) printf '%s\n' "$plumb_root/build-$1" ;;
+        *) die "unknown preset '$1': release, dev, debug, asan, arm64, fuzz or coverage" ;;
     esac
 }
 
@@ -110,7 +110,7 @@ build() {
         # One build at a time in one folder. The file is open in this subshell only.
         exec 9>"$folder/.lock"
         ! command -v flock >/dev/null || flock 9
-        cd -- "$plumb_root"
+        cd -- "$plumb_root" || exit
         local cache=$folder/CMakeCache.txt
         if [[ -f $cache ]] && ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$plumb_root" "$cache"; then
             say "$folder was configured for another folder; starting again"
