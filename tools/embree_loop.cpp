@@ -11,9 +11,9 @@
 // random numbers from a 64-bit generator. The scene's triangles are read through the library; its spheres are left out.
 // Prints one line of JSON.
 
-#include "plumb/instruction_set.h"
-#include "plumb/scene_file.h"
-#include "scene/float_mode.h"
+#include "base/float_mode.h"
+#include "plumb/scene/instruction_set.h"
+#include "plumb/scene_file/scene_file.h"
 
 #include <atomic>
 #include <charconv>

@@ -530,9 +530,9 @@ def interesting():
 
 def all_files():
     files = {}
-    for folder in (common, cbox, veach_mi, table, hw4, interesting):
-        for name, mesh in folder().items():
-            files[f"{folder.__name__}/meshes/{name}.obj"] = mesh.to_obj()
+    for directory in (common, cbox, veach_mi, table, hw4, interesting):
+        for name, mesh in directory().items():
+            files[f"{directory.__name__}/meshes/{name}.obj"] = mesh.to_obj()
     files["common/textures/wood.png"] = png(image(320, 320, wood))
     files["interesting/textures/glaze.png"] = png(image(384, 192, glaze))
     files["interesting/textures/dusk.hdr"] = hdr(image(256, 128, dusk))

@@ -5,7 +5,7 @@
 # Environment:
 #   PLUMB_SKIP_INSTALL=1            do not look for packages: everything needed is there
 #   CMAKE_BUILD_PARALLEL_LEVEL=N    compile N files at a time
-#   CXX=clang++                     the compiler, when a build folder is configured for the first time
+#   CXX=clang++                     the compiler, when a build directory is configured for the first time
 
 plumb_root="$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)"
 
@@ -81,10 +81,10 @@ install_packages() {
     fi
 }
 
-# Every file of the tree that git would keep, or, without git, every file outside the build folders; from the folder
+# Every file of the tree that git would keep, or, without git, every file outside the build directories; from the directory
 # above tools/, each ends with a zero.
 tree_files() (
-    cd -- "$plumb_root"
+    cd -- "$plumb_root" || return
     if command -v git >/dev/null && [[ $(git rev-parse --show-toplevel 2>/dev/null) -ef . ]]; then
         git ls-files --cached --others --exclude-standard -z
     else
@@ -92,36 +92,36 @@ tree_files() (
     fi
 )
 
-# build_folder PRESET: where CMakePresets.json builds it.
-build_folder() {
+# build_directory PRESET: where CMakePresets.json builds it.
+build_directory() {
     case $1 in
         release) printf '%s\n' "$plumb_root/build" ;;
-        dev | debug | asan | arm64 | fuzz) printf '%s\n' "$plumb_root/build-$1" ;;
-        *) die "unknown preset '$1': release, dev, debug, asan, arm64 or fuzz" ;;
+        dev | debug | asan | arm64 | fuzz | coverage) printf '%s\n' "$plumb_root/build-$1" ;;
+        *) die "unknown preset '$1': release, dev, debug, asan, arm64, fuzz or coverage" ;;
     esac
 }
 
 # build PRESET [TARGET]: configures if that was never done, the tree has moved or the presets have changed, and builds.
 build() {
-    local preset=$1 target=${2:-all} folder
-    folder="$(build_folder "$preset")"
-    mkdir -p -- "$folder"
+    local preset=$1 target=${2:-all} directory
+    directory="$(build_directory "$preset")"
+    mkdir -p -- "$directory"
     (
-        # One build at a time in one folder. The file is open in this subshell only.
-        exec 9>"$folder/.lock"
+        # One build at a time in one directory. The file is open in this subshell only.
+        exec 9>"$directory/.lock"
         ! command -v flock >/dev/null || flock 9
-        cd -- "$plumb_root"
-        local cache=$folder/CMakeCache.txt
+        cd -- "$plumb_root" || exit
+        local cache=$directory/CMakeCache.txt
         if [[ -f $cache ]] && ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$plumb_root" "$cache"; then
-            say "$folder was configured for another folder; starting again"
-            rm -rf -- "$cache" "$folder/CMakeFiles" "$folder/build.ninja"
+            say "$directory was configured for another directory; starting again"
+            rm -rf -- "$cache" "$directory/CMakeFiles" "$directory/build.ninja"
         fi
-        [[ -f $folder/build.ninja ]] ||
-            say "configuring and building the '$preset' preset in $folder; this takes some minutes, once"
+        [[ -f $directory/build.ninja ]] ||
+            say "configuring and building the '$preset' preset in $directory; this takes some minutes, once"
         # Newer than a file that is missing, too. CMake itself would not notice that the presets have changed.
-        if [[ CMakePresets.json -nt $folder/build.ninja ]]; then
+        if [[ CMakePresets.json -nt $directory/build.ninja ]]; then
             quietly cmake --preset "$preset" 9>&- || die "configuring failed"
         fi
-        quietly cmake --build "$folder" --target "$target" -- --quiet 9>&- || die "the build failed"
+        quietly cmake --build "$directory" --target "$target" -- --quiet 9>&- || die "the build failed"
     )
 }

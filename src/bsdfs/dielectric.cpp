@@ -2,10 +2,10 @@
 
 // [1] Veach 1997, "Robust Monte Carlo Methods for Light Transport Simulation".
 
+#include "bsdfs/fresnel.h"
 #include "bsdfs/refraction_indices.h"
-#include "interfaces/plugin.h"
-#include "plumb/bsdf.h"
-#include "plumb/fresnel.h"
+#include "model/plugin.h"
+#include "plumb/model/bsdf.h"
 
 namespace plumb {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 
-#include "interfaces/plugin.h"
-#include "plumb/bsdf.h"
-#include "plumb/sampling.h"
+#include "model/plugin.h"
+#include "plumb/model/bsdf.h"
+#include "plumb/sampling/sampling.h"
 
 namespace plumb {
 

@@ -4,9 +4,9 @@
 
 #include "bsdfs/refraction_indices.h"
 #include "bsdfs/rough_reflection.h"
-#include "interfaces/plugin.h"
-#include "plumb/bsdf.h"
-#include "plumb/sampling.h"
+#include "model/plugin.h"
+#include "plumb/model/bsdf.h"
+#include "plumb/sampling/sampling.h"
 
 namespace plumb {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 
-#include "interfaces/plugin.h"
-#include "plumb/bsdf.h"
+#include "model/plugin.h"
+#include "plumb/model/bsdf.h"
 
 namespace plumb {
 

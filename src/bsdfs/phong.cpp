@@ -2,11 +2,11 @@
 
 // [1] Lafortune and Willems 1994, "Using the Modified Phong Reflectance Model for Physically Based Rendering".
 
-#include "interfaces/plugin.h"
-#include "plumb/bsdf.h"
-#include "plumb/elementary.h"
-#include "plumb/frame.h"
-#include "plumb/sampling.h"
+#include "model/plugin.h"
+#include "plumb/math/elementary.h"
+#include "plumb/math/frame.h"
+#include "plumb/model/bsdf.h"
+#include "plumb/sampling/sampling.h"
 
 namespace plumb {
 

@@ -3,7 +3,7 @@
 
 // The indices of refraction of dielectric BSDFs, as their constructors read them.
 
-#include "plumb/params.h"
+#include "plumb/model/params.h"
 
 namespace plumb {
 

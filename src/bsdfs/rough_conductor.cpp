@@ -4,8 +4,8 @@
 // [2] Schlick 1994, "An Inexpensive BRDF Model for Physically-based Rendering".
 
 #include "bsdfs/rough_reflection.h"
-#include "interfaces/plugin.h"
-#include "plumb/bsdf.h"
+#include "model/plugin.h"
+#include "plumb/model/bsdf.h"
 
 namespace plumb {
 

@@ -4,8 +4,8 @@
 
 #include "bsdfs/refraction_indices.h"
 #include "bsdfs/rough_reflection.h"
-#include "interfaces/plugin.h"
-#include "plumb/bsdf.h"
+#include "model/plugin.h"
+#include "plumb/model/bsdf.h"
 
 namespace plumb {
 

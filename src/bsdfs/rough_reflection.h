@@ -5,9 +5,9 @@
 //
 // [1] Walter, Marschner, Li and Torrance 2007, "Microfacet Models for Refraction through Rough Surfaces".
 
-#include "plumb/fresnel.h"
-#include "plumb/microfacet.h"
-#include "plumb/texture.h"
+#include "bsdfs/fresnel.h"
+#include "bsdfs/microfacet_distribution.h"
+#include "plumb/model/texture.h"
 
 namespace plumb {
 

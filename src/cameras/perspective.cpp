@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 
-#include "interfaces/plugin.h"
+#include "model/plugin.h"
 
-#include "plumb/camera.h"
-#include "plumb/sampling.h"
+#include "plumb/model/camera.h"
+#include "plumb/sampling/sampling.h"
 
 namespace plumb {
 namespace {

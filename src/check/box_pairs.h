@@ -3,7 +3,7 @@
 
 // Which of many boxes overlap.
 
-#include "plumb/math.h"
+#include "plumb/math/math.h"
 
 #include <cstdint>
 #include <span>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 
-#include "plumb/check.h"
+#include "plumb/check/check.h"
 
 #include "check/coincidence_doubts.h"
 #include "check/mesh_facts.h"
 #include "check/precision_doubts.h"
-#include "plumb/sampling.h"
-#include "plumb/tracer.h"
+#include "plumb/sampling/sampling.h"
+#include "plumb/scene/tracer.h"
 
 #include <algorithm>
 #include <fmt/format.h>

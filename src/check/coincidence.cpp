@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "check/coincidence.h"
 
+#include "base/parallel.h"
 #include "check/box_pairs.h"
 #include "check/surface_triangles.h"
 #include "check/triangle_overlap.h"
-#include "core/parallel.h"
 
 #include <algorithm>
 #include <map>
@@ -69,9 +69,9 @@ bool plane_reaches(const FlatTriangle& triangle, double reach, const Box3f& box)
     return std::abs(dot(n, middle - triangle.corners[0])) <= extent + reach;
 }
 
-class Finder {
+class LightStrategy {
 public:
-    explicit Finder(const Scene& scene)
+    explicit LightStrategy(const Scene& scene)
     {
         surfaces_.reserve(scene.objects().size());
         for (const SceneObject& object : scene.objects()) surfaces_.emplace_back(*object.shape);
@@ -117,8 +117,8 @@ private:
 
     // For what coincides with one triangle.
     struct Search {
-        Search(const Finder& in, const std::vector<Member>& members, const Member& of, Found& found)
-            : finder_(in),
+        Search(const LightStrategy& in, const std::vector<Member>& members, const Member& of, Found& found)
+            : strategy_(in),
               members_(members),
               own_(of),
               found_(found),
@@ -133,15 +133,15 @@ private:
 
         void meet(std::size_t other) const
         {
-            const FlatTriangle triangle(finder_.corners(members_[other]));
+            const FlatTriangle triangle(strategy_.corners(members_[other]));
             if (const auto tolerance = overlap_tolerance(triangle_, triangle))
                 add(found_,
-                    finder_.coincidence(own_, members_[other],
-                                        triangle_.area < triangle.area ? triangle_ : triangle, *tolerance));
+                    strategy_.coincidence(own_, members_[other],
+                                          triangle_.area < triangle.area ? triangle_ : triangle, *tolerance));
         }
 
     private:
-        const Finder& finder_;
+        const LightStrategy& strategy_;
         const std::vector<Member>& members_;
         const Member& own_;
         Found& found_;
@@ -198,7 +198,7 @@ private:
 
 Coincidences find_coincidences(const Scene& scene)
 {
-    return Finder(scene).find();
+    return LightStrategy(scene).find();
 }
 
 } // namespace plumb

@@ -4,7 +4,7 @@
 // Surfaces that lie in each other: which of them a ray meets is left to chance, and a ray that starts on the one misses
 // the other.
 
-#include "plumb/scene.h"
+#include "plumb/scene/scene.h"
 
 #include <vector>
 

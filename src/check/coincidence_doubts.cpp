@@ -2,7 +2,7 @@
 #include "check/coincidence_doubts.h"
 
 #include "check/coincidence.h"
-#include "plumb/sampling.h"
+#include "plumb/sampling/sampling.h"
 
 #include <algorithm>
 #include <fmt/format.h>

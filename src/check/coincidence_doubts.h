@@ -3,7 +3,7 @@
 
 // What `check` says of surfaces that lie in each other.
 
-#include "plumb/check.h"
+#include "plumb/check/check.h"
 
 namespace plumb {
 

@@ -3,7 +3,7 @@
 
 // What kind of surface a shape is.
 
-#include "plumb/shape.h"
+#include "plumb/model/shape.h"
 
 #include <vector>
 

@@ -3,7 +3,7 @@
 
 // What `check` says of scenes that lie so far from the origin that 32-bit floats cannot hold them.
 
-#include "plumb/check.h"
+#include "plumb/check/check.h"
 
 namespace plumb {
 

@@ -3,7 +3,7 @@
 
 // A shape as it describes itself to the acceleration structure: triangles, or a sphere.
 
-#include "plumb/shape.h"
+#include "plumb/model/shape.h"
 #include "shapes/triangle.h"
 
 #include <optional>

@@ -7,7 +7,7 @@
 #include "cli/outputs.h"
 #include "cli/progress.h"
 
-#include "core/visible_text.h"
+#include "base/visible_text.h"
 
 #include <algorithm>
 #include <fmt/format.h>

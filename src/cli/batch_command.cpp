@@ -5,7 +5,7 @@
 #include "cli/exit_codes.h"
 #include "cli/text_file.h"
 
-#include "core/visible_text.h"
+#include "base/visible_text.h"
 
 #include <algorithm>
 #include <chrono>
@@ -115,11 +115,11 @@ int update(const Options& options, const std::vector<BatchJob>& jobs,
 
 void write_reports(const BatchRun& run)
 {
-    const fs::path folder = run.folder;
-    write_text_file(folder / "report.json", batch_json(run));
-    write_text_file(folder / "junit.xml", batch_junit(run));
-    write_text_file(folder / "summary.md", batch_markdown(run));
-    write_text_file(folder / "report.html", batch_html(run));
+    const fs::path directory = run.directory;
+    write_text_file(directory / "report.json", batch_json(run));
+    write_text_file(directory / "junit.xml", batch_junit(run));
+    write_text_file(directory / "summary.md", batch_markdown(run));
+    write_text_file(directory / "report.html", batch_html(run));
 }
 
 } // namespace
@@ -130,23 +130,24 @@ int batch_command(const Options& options)
     const std::vector<BatchJob> chosen_jobs = chosen(jobs, options);
     if (options.batch.update) return update(options, jobs, chosen_jobs);
 
-    const fs::path folder = options.batch.folder.empty()
-                                ? fs::path("batch") / fs::path(options.subject).stem()
-                                : fs::path(options.batch.folder);
-    make_folder(folder);
+    const fs::path directory = options.batch.directory.empty()
+                                   ? fs::path("batch") / fs::path(options.subject).stem()
+                                   : fs::path(options.batch.directory);
+    make_directory(directory);
     for (const char* report : {"report.json", "junit.xml", "summary.md", "report.html", "state.txt"})
-        check_text_path(folder / report);
-    BatchContext context{options, folder, BatchState(folder), {}, KeptFiles(files_to_keep(jobs, options))};
+        check_text_path(directory / report);
+    BatchContext context{
+        options, directory, BatchState(directory), {}, KeptFiles(files_to_keep(jobs, options))};
     for (const BatchJob& job : jobs)
         if (job.entry.settings.contains("spp")) context.titles.insert(job.entry.title());
 
     BatchRun run =
         run_all(chosen_jobs, options, [&](const BatchJob& job) { return run_entry(job, context); });
-    run.folder = folder.string();
+    run.directory = directory.string();
     write_reports(run);
     if (!options.quiet)
         print_output(fmt::format("{}; reports: {}\n", summary_text(run),
-                                 visible_text((folder / "report.html").string())));
+                                 visible_text((directory / "report.html").string())));
     return run.exit_code();
 }
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
+#include "base/memory.h"
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "cli/exit_codes.h"
 #include "cli/manuals.h"
 #include "cli/text.h"
-#include "core/memory.h"
 
-#include "plumb/check.h"
+#include "plumb/check/check.h"
 
 #include <fmt/format.h>
 

@@ -5,8 +5,8 @@
 #include "cli/provenance.h"
 #include "cli/text.h"
 
-#include "io/temporary_file.h"
-#include "plumb/error.h"
+#include "base/temporary_file.h"
+#include "plumb/base/error.h"
 
 #include <fmt/format.h>
 
@@ -76,7 +76,7 @@ void save_checkpoint(const fs::path& path, const RenderState& state, Vec2i resol
     file.flush();
     if (is_there(path)) keep_as(path, previous_generation(path));
     file.take_place();
-    flush_folder_of(path);
+    flush_directory_of(path);
 }
 
 std::optional<StateFile> load_checkpoint(const fs::path& path, const Metadata& header)

@@ -3,7 +3,7 @@
 
 // State files (state_file.h) on disk: two generations of each, so that one survives whatever happens.
 
-#include "plumb/state_file.h"
+#include "plumb/render/state_file.h"
 
 #include <filesystem>
 #include <optional>

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
+#include "base/lower_case.h"
 #include "cli/commands.h"
 #include "cli/comparison_text.h"
 #include "cli/console.h"
 #include "cli/manuals.h"
 #include "cli/outputs.h"
-#include "core/lower_case.h"
 
-#include "core/visible_text.h"
-#include "plumb/compare.h"
-#include "plumb/error.h"
+#include "base/visible_text.h"
+#include "plumb/base/error.h"
+#include "plumb/compare/compare.h"
 
 #include <algorithm>
 
@@ -47,8 +47,8 @@ int compare_command(const Options& options)
     std::vector<std::string> images;
     if (!options.compare.difference.empty()) images.push_back(options.compare.difference);
     check_outputs(images, options.json);
-    keep_inputs(KeptFiles({options.subject, options.subjects[1]}), images, options.json,
-                "it is one of the pictures to compare");
+    refuse_overwriting_inputs(KeptFiles({options.subject, options.subjects[1]}), images, options.json,
+                              "it is one of the pictures to compare");
     const Image a = read_image(options.subject, true);
     const Image b = read_image(options.subjects[1], true);
 

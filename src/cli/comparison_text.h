@@ -5,7 +5,7 @@
 
 #include "cli/json.h"
 
-#include "plumb/compare.h"
+#include "plumb/compare/compare.h"
 
 #include <string>
 

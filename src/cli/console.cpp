@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "cli/console.h"
 
-#include "core/visible_text.h"
-#include "plumb/error.h"
+#include "base/visible_text.h"
+#include "plumb/base/error.h"
 
 #include <algorithm>
 #include <cerrno>

@@ -4,7 +4,7 @@
 // Standard output and standard error. Nothing else in src/cli prints. Names and texts that others chose are part of what is
 // printed: nothing that would steer a terminal gets through here (visible_text.h).
 
-#include "plumb/error.h"
+#include "plumb/base/error.h"
 
 #include <string_view>
 

@@ -6,7 +6,7 @@
 #include "cli/json.h"
 #include "cli/options.h"
 
-#include "plumb/compare.h"
+#include "plumb/compare/compare.h"
 
 namespace plumb {
 

@@ -104,7 +104,7 @@ Metadata scene_header(const Options& options, const LoadedScene& scene)
 Metadata work_header(const Options& options, const LoadedScene& scene)
 {
     Metadata header = scene_header(options, scene);
-    const Ledger ledger = make_ledger(scene.job, scene.dialect);
+    const BiasReport ledger = make_ledger(scene.job, scene.dialect);
     if (!ledger.biases.empty()) header.emplace_back("plumb:workBiases", lines_text(ledger.biases));
     if (!ledger.model.empty()) header.emplace_back("plumb:workModel", lines_text(ledger.model));
     if (const auto& part = options.part) {
@@ -130,7 +130,7 @@ Metadata evidence_header(const Evidence& evidence)
     add("plumb:samplesPerPixel", static_cast<int>(evidence.samples_per_pixel)); // at most 2^26
     if (!evidence.even) add("plumb:samplesTaken", evidence.taken.text());
     if (!evidence.stop.empty()) add("plumb:stop", evidence.stop);
-    const Ledger& ledger = evidence.ledger;
+    const BiasReport& ledger = evidence.ledger;
     add("plumb:biased", ledger.biases.empty() ? 0 : 1);
     if (!ledger.biases.empty()) add("plumb:biases", list_text(ledger.biases));
     if (!ledger.model.empty()) add("plumb:model", list_text(ledger.model));

@@ -8,7 +8,7 @@
 //     plumb:scene             the scene file: its path as given, or its name if that was an absolute path
 //     plumb:arguments         the words of the command line that matter; only if there are any
 //     plumb:inputs            a line for each file that was read: the hash of its bytes, a space, its path from the scene
-//                             file's folder (or its name, if it lies elsewhere)
+//                             file's directory (or its name, if it lies elsewhere)
 //     plumb:inputHash         of all these, and of what the command line and the dialect make of them
 //     plumb:definitions       -D, in the order of the names; only if given
 //     plumb:integrator, plumb:sampler   type names
@@ -48,7 +48,7 @@
 
 #include "cli/options.h"
 
-#include "plumb/evidence.h"
+#include "plumb/render/evidence.h"
 
 namespace plumb {
 

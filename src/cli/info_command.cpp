@@ -4,7 +4,7 @@
 #include "cli/exit_codes.h"
 #include "cli/text.h"
 
-#include "plumb/image.h"
+#include "plumb/image/image.h"
 
 #include <fmt/format.h>
 

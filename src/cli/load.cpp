@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include "base/named_file.h"
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "cli/text.h"
 #include "cli/verbs.h"
-#include "core/named_file.h"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 #include "cli/exit_codes.h"
 #include "cli/verbs.h"
 
-#include "plumb/error.h"
+#include "plumb/base/error.h"
 
 #include <cstdlib>
 #include <exception>

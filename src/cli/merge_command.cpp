@@ -155,8 +155,8 @@ std::string merge_json(const Options& options, const Merged& merged, const Sampl
 void write_picture_of(const Merged& merged, const Options& run)
 {
     const StateFile& file = merged.file;
-    const Ledger ledger{lines_of(header_text(file.header, "plumb:workBiases")),
-                        lines_of(header_text(file.header, "plumb:workModel"))};
+    const BiasReport ledger{lines_of(header_text(file.header, "plumb:workBiases")),
+                            lines_of(header_text(file.header, "plumb:workModel"))};
     const Evidence evidence = make_evidence(ledger, file.state, header_text(file.header, "plumb:workStop"));
     const Options options =
         header_options(file.header, header_text(file.header, "plumb:scene"), merged.parts.front().first);
@@ -186,8 +186,8 @@ int merge_command(const Options& options)
     std::vector<std::string> written = outputs;
     if (!checkpoint.empty()) written.push_back(previous_generation(checkpoint).string());
     check_outputs(written, options.json);
-    keep_inputs(KeptFiles({options.subjects.begin(), options.subjects.end()}), written, options.json,
-                "it is a part to be merged");
+    refuse_overwriting_inputs(KeptFiles({options.subjects.begin(), options.subjects.end()}), written,
+                              options.json, "it is a part to be merged");
 
     Merged merged = merge_parts(options.subjects);
     StateFile& file = merged.file;

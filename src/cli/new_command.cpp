@@ -4,7 +4,7 @@
 #include "cli/exit_codes.h"
 #include "cli/manuals.h"
 #include "cli/text.h"
-#include "plumb/error.h"
+#include "plumb/base/error.h"
 
 #include <cerrno>
 #include <cstdio>

@@ -3,7 +3,7 @@
 
 #include "cli/values.h"
 #include "cli/verbs.h"
-#include "plumb/instruction_set.h"
+#include "plumb/scene/instruction_set.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -81,7 +81,7 @@ using OptionTable = OptionRow[]; // clang-format gets lost in the declaration wi
 const OptionTable rows = {
     {Topic::output, Effect::run, rendering | merge_only, "-o,--output", "FILE",
      "write this image: .exr, .hdr, .tif, .png or .jpg; may be given\n"
-     "several times (default SCENE_SPP.exr and .png in this folder)",
+     "several times (default SCENE_SPP.exr and .png in this directory)",
      [](Options& o, Name, Text t) { o.outputs.push_back(t); }, true},
     {Topic::output, Effect::picture, render_only, "--exposure", "EV",
      "multiply .png and .jpg by 2^EV (default 0)",
@@ -92,11 +92,11 @@ const OptionTable rows = {
      [](Options& o, Name, Text) { o.variance = false; }},
     {Topic::output, Effect::run, rendering | merge_only | test_only | compare_only | agree_or_race, "--json",
      "FILE", "write a report of the run; - is standard output", [](Options& o, Name, Text t) { o.json = t; }},
-    {Topic::output, Effect::run, batch_only, "--out", "FOLDER",
+    {Topic::output, Effect::run, batch_only, "--out", "DIRECTORY",
      "for pictures and reports (default batch/SUITE)",
      [](Options& o, Name n, Text t) {
-         if (t.empty()) throw UsageError(fmt::format("{} needs a folder", n));
-         o.batch.folder = t;
+         if (t.empty()) throw UsageError(fmt::format("{} needs a directory", n));
+         o.batch.directory = t;
      }},
     {Topic::output, Effect::run, batch_only, "--update", "",
      "make the references instead of comparing with them",

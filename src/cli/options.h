@@ -3,9 +3,9 @@
 
 // What the command line asks for. A pure function of the words: nothing is printed, read or exited here.
 
-#include "plumb/compare.h"
-#include "plumb/sample_set.h"
-#include "plumb/scene_file.h"
+#include "plumb/compare/compare.h"
+#include "plumb/render/sample_set.h"
+#include "plumb/scene_file/scene_file.h"
 
 #include <stdexcept>
 #include <string>
@@ -82,8 +82,8 @@ struct RepeatRequest {
 
 // What `renderer batch` does with a suite.
 struct BatchRequest {
-    std::string folder; // for pictures and reports; empty: batch/<suite>
-    std::string filter; // empty: all entries
+    std::string directory; // for pictures and reports; empty: batch/<suite>
+    std::string filter;    // empty: all entries
     bool fail_fast = false;
     bool update = false; // make the references instead
     bool force = false;  // also what is up to date

@@ -6,10 +6,10 @@
 #include "cli/text.h"
 #include "cli/text_file.h"
 
-#include "core/parallel.h"
-#include "io/temporary_file.h"
-#include "plumb/error.h"
-#include "plumb/image.h"
+#include "base/parallel.h"
+#include "base/temporary_file.h"
+#include "plumb/base/error.h"
+#include "plumb/image/image.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -38,25 +38,25 @@ std::vector<std::string> all_files(std::vector<std::string> images, const std::s
     return images;
 }
 
-// A name in the folder that no file has: "a.exr", "a-1.exr", "a-2.exr" and so on.
-std::filesystem::path free_name(const std::filesystem::path& folder, const std::filesystem::path& file)
+// A name in the directory that no file has: "a.exr", "a-1.exr", "a-2.exr" and so on.
+std::filesystem::path free_name(const std::filesystem::path& directory, const std::filesystem::path& file)
 {
-    std::filesystem::path path = folder / file;
+    std::filesystem::path path = directory / file;
     std::error_code ignored;
     for (int i = 1; std::filesystem::exists(path, ignored); ++i)
-        path = folder / fmt::format("{}-{}{}", file.stem().string(), i, file.extension().string());
+        path = directory / fmt::format("{}-{}{}", file.stem().string(), i, file.extension().string());
     return path;
 }
 
-// A picture may have taken long. If its folder is gone it goes into the refuge, or else the current folder. Where it is
+// A picture may have taken long. If its directory is gone it goes into the refuge, or else the current directory. Where it is
 // then, for a message; empty: nowhere.
 std::string write_into_refuge(const std::filesystem::path& output, const Image& image, float exposure,
                               Packing packing, const std::filesystem::path& refuge)
 {
     std::error_code ignored;
     if (!output.has_parent_path() || std::filesystem::exists(output.parent_path(), ignored)) return {};
-    for (const std::filesystem::path& folder : {refuge, std::filesystem::path()}) {
-        const std::filesystem::path path = free_name(folder, output.filename());
+    for (const std::filesystem::path& directory : {refuge, std::filesystem::path()}) {
+        const std::filesystem::path path = free_name(directory, output.filename());
         try {
             write_image(path, image, exposure, packing);
             return fmt::format("; the picture is in '{}' instead", path.string());
@@ -93,8 +93,8 @@ bool KeptFiles::contains(const std::filesystem::path& file) const
     return identities_.contains(identity(file));
 }
 
-void keep_inputs(const KeptFiles& inputs, const std::vector<std::string>& images, const std::string& json,
-                 std::string_view reason)
+void refuse_overwriting_inputs(const KeptFiles& inputs, const std::vector<std::string>& images,
+                               const std::string& json, std::string_view reason)
 {
     for (const std::string& file : all_files(images, json))
         if (inputs.contains(file)) throw Error(fmt::format("cannot write '{}': {}", file, reason));

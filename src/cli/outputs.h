@@ -3,7 +3,7 @@
 
 // The files that a command writes: found out about before the work begins.
 
-#include "plumb/evidence.h"
+#include "plumb/render/evidence.h"
 
 #include <filesystem>
 #include <set>
@@ -28,14 +28,14 @@ private:
 };
 
 // Throws Error, "cannot write 'X': " and the reason, if an output is one of the inputs.
-void keep_inputs(const KeptFiles& inputs, const std::vector<std::string>& images, const std::string& json,
-                 std::string_view reason);
+void refuse_overwriting_inputs(const KeptFiles& inputs, const std::vector<std::string>& images,
+                               const std::string& json, std::string_view reason);
 
 // An interrupted picture is written fast: somebody waits, and it will be replaced.
 Packing packing_of(const Evidence& evidence);
 
-// Writes the picture to all of these, at the same time. One that cannot be written does not keep the others from being tried; if its folder
-// is gone, it is written into `refuge` instead, or into the current folder. Throws Error, with where it is then, if any was not
+// Writes the picture to all of these, at the same time. One that cannot be written does not keep the others from being tried; if its directory
+// is gone, it is written into `refuge` instead, or into the current directory. Throws Error, with where it is then, if any was not
 // written where it was to be.
 void write_pictures(const std::vector<std::string>& outputs, const Image& image, float exposure,
                     Packing packing, const std::filesystem::path& refuge);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "cli/program.h"
 
-#include "plumb/hash.h"
-#include "plumb/image.h"
+#include "plumb/base/hash.h"
+#include "plumb/image/image.h"
 
 namespace plumb {
 

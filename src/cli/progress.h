@@ -3,7 +3,7 @@
 
 // How far a rendering is: a bar on a terminal, a line now and then elsewhere.
 
-#include "plumb/render.h"
+#include "plumb/render/render.h"
 
 #include <string>
 

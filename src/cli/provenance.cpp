@@ -3,7 +3,7 @@
 
 #include "cli/text.h"
 
-#include "plumb/error.h"
+#include "plumb/base/error.h"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -8,8 +8,8 @@
 #include "cli/progress.h"
 #include "cli/race_statistics.h"
 
-#include "core/visible_text.h"
-#include "plumb/mean_and_variance.h"
+#include "base/visible_text.h"
+#include "plumb/statistics/mean_and_variance.h"
 
 #include <algorithm>
 #include <bit>

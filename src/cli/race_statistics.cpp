@@ -5,9 +5,9 @@
 
 #include "cli/race_statistics.h"
 
-#include "plumb/elementary.h"
-#include "plumb/mean_and_variance.h"
-#include "plumb/statistics.h"
+#include "plumb/math/elementary.h"
+#include "plumb/statistics/mean_and_variance.h"
+#include "plumb/statistics/statistics.h"
 
 #include <numeric>
 

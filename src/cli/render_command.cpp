@@ -138,8 +138,8 @@ Rendered render_and_write(const Options& options, const LoadedScene& scene)
     const std::vector<std::string> outputs = with_checkpoint(images, options);
     const std::vector<std::string> written = files_written(images, options);
     if (options.outputs.empty()) check_outputs(written, options.json);
-    keep_inputs(KeptFiles(paths_of(scene.inputs)), written, options.json,
-                "the scene reads this file; write to another");
+    refuse_overwriting_inputs(KeptFiles(paths_of(scene.inputs)), written, options.json,
+                              "the scene reads this file; write to another");
 
     const Metadata header = scene_header(options, scene);
     const Metadata work = work_header(options, scene);

@@ -8,8 +8,8 @@
 #include "cli/progress.h"
 #include "cli/text.h"
 
-#include "plumb/image.h"
-#include "plumb/stop_rules.h"
+#include "plumb/image/image.h"
+#include "plumb/render/stop_rules.h"
 
 #include <atomic>
 #include <chrono>
@@ -127,7 +127,7 @@ private:
     bool take_until_stopped()
     {
         for (std::uint64_t samples = fewest_samples();;) {
-            if (rules_.relative_error && is_look(samples) && look(samples)) return true;
+            if (rules_.relative_error && is_convergence_check(samples) && look(samples)) return true;
             const std::uint64_t next = next_stop(rules_, samples, rendering_.state().seconds);
             if (next == samples) {
                 if (samples < rules_.samples_per_pixel)

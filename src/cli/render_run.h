@@ -5,7 +5,7 @@
 
 #include "cli/options.h"
 
-#include "plumb/render.h"
+#include "plumb/render/render.h"
 
 namespace plumb {
 

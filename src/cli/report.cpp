@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "cli/report.h"
 
+#include "base/memory.h"
 #include "cli/json.h"
 #include "cli/text.h"
-#include "core/memory.h"
 
 #include <ctime>
 #include <unistd.h>

@@ -4,7 +4,7 @@
 // The report of a run that --json writes: what the header of an image does not say, times and machine included.
 
 #include "cli/options.h"
-#include "plumb/evidence.h"
+#include "plumb/render/evidence.h"
 
 namespace plumb {
 

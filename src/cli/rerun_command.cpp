@@ -32,7 +32,7 @@ Metadata read_recipe(const std::string& image_file)
     return recipe;
 }
 
-// Where the scene file was: seen from this folder, or from the picture's.
+// Where the scene file was: seen from this directory, or from the picture's.
 std::string find_scene(const Options& options, const std::string& scene)
 {
     if (!options.scene.empty()) return options.scene;
@@ -116,14 +116,15 @@ void check_inputs(const Metadata& recipe, const Metadata& now)
 std::string_view rerun_manual()
 {
     return "Renders a picture of ours again from what its header says, to the same file, byte for byte.\n"
-           "The scene file is looked for where it was, seen from this folder or from the picture's; if\n"
+           "The scene file is looked for where it was, seen from this directory or from the picture's; if\n"
            "it, a mesh, an image or this program is not what it was, the error names it.\n";
 }
 
 int rerun_command(const Options& run)
 {
     const Metadata recipe = read_recipe(run.subject);
-    keep_inputs(KeptFiles({run.subject}), run.outputs, run.json, "it is the picture to be rendered again");
+    refuse_overwriting_inputs(KeptFiles({run.subject}), run.outputs, run.json,
+                              "it is the picture to be rendered again");
     check_outputs(run.outputs, run.json);
     Options options = options_of(recipe, run);
     const LoadedScene scene = load_and_log(options);

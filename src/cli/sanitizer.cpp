@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/sanitized.h"
+#include "base/sanitized.h"
 
 #ifdef PLUMB_SANITIZED
 

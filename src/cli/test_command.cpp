@@ -6,7 +6,7 @@
 #include "cli/outputs.h"
 #include "cli/text.h"
 
-#include "plumb/course_test.h"
+#include "plumb/estimator_checks/estimator_check.h"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -3,9 +3,9 @@
 
 // Numbers and words for people.
 
-#include "core/visible_text.h"
-#include "plumb/color.h"
-#include "plumb/film.h"
+#include "base/visible_text.h"
+#include "plumb/math/color.h"
+#include "plumb/render/film.h"
 
 #include <string>
 #include <string_view>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "cli/text_file.h"
 
-#include "io/temporary_file.h"
-#include "plumb/error.h"
+#include "base/temporary_file.h"
+#include "plumb/base/error.h"
 
 #include <cerrno>
 #include <cstring>

@@ -3,8 +3,8 @@
 
 // The values of options: whole words, checked for range. Each function throws UsageError in the name of `option`.
 
-#include "plumb/image.h"
-#include "plumb/math.h"
+#include "plumb/image/image.h"
+#include "plumb/math/math.h"
 
 #include <string>
 #include <string_view>

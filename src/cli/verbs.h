@@ -27,7 +27,7 @@ struct VerbRow {
 std::span<const VerbRow> verb_rows();
 const VerbRow& row_of(Verb verb);
 
-// Whether nobody would call a file so: it has neither a folder nor an ending.
+// Whether nobody would call a file so: it has neither a directory nor an ending.
 bool is_no_file_name(std::string_view word);
 
 // The verb that `word` is or could be a slip of; else empty.

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "plumb/compare.h"
+#include "plumb/compare/compare.h"
 
+#include "compare/flip.h"
 #include "compare/metrics.h"
 #include "compare/significance.h"
-#include "plumb/error.h"
-#include "plumb/flip.h"
+#include "plumb/base/error.h"
 
 #include <fmt/format.h>
 

@@ -2,8 +2,8 @@
 
 // Errors in false colours, above a bar that tells which colour is how much.
 
-#include "compare/picture.h"
-#include "plumb/error.h"
+#include "compare/estimate.h"
+#include "plumb/base/error.h"
 
 #include <fmt/format.h>
 

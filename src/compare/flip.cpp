@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 
-// Numbers of papers and equations: see plumb/flip.h.
+// Numbers of papers and equations: see compare/flip.h.
 
-#include "plumb/flip.h"
+#include "compare/flip.h"
 
 #include "compare/flip_ldr.h"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The colour spaces of FLIP, in double precision. Numbers of equations are those of [1] in plumb/flip.h.
+// The colour spaces of FLIP, in double precision. Numbers of equations are those of [1] in compare/flip.h.
 
-#include "plumb/color.h"
+#include "plumb/math/color.h"
 
 namespace plumb::flip {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-// Numbers of papers and equations: see plumb/flip.h.
+// Numbers of papers and equations: see compare/flip.h.
 
 #include "compare/flip_ldr.h"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// FLIP of two pictures as a screen shows them. Numbers of papers and equations: see plumb/flip.h.
+// FLIP of two pictures as a screen shows them. Numbers of papers and equations: see compare/flip.h.
 
-#include "plumb/math.h"
+#include "plumb/math/math.h"
 
 #include <vector>
 

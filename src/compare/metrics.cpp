@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "compare/metrics.h"
 
-#include "plumb/error.h"
-#include "plumb/mean_and_variance.h"
-#include "plumb/statistics.h"
+#include "plumb/base/error.h"
+#include "plumb/statistics/mean_and_variance.h"
+#include "plumb/statistics/statistics.h"
 
 #include <fmt/format.h>
 

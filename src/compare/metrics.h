@@ -3,7 +3,7 @@
 
 // Differences of two pictures as they are, and without what noise adds.
 
-#include "compare/picture.h"
+#include "compare/estimate.h"
 
 namespace plumb {
 

@@ -7,8 +7,8 @@
 
 #include "compare/significance.h"
 
-#include "compare/unit_test.h"
-#include "plumb/statistics.h"
+#include "compare/region_test.h"
+#include "plumb/statistics/statistics.h"
 
 #include <array>
 

@@ -3,7 +3,7 @@
 
 // The verdict on two noisy pictures: tests of pixels, of squares of 2^k pixels and of the whole.
 
-#include "compare/picture.h"
+#include "compare/estimate.h"
 
 namespace plumb {
 

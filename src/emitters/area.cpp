@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 
-#include "core/elided.h"
-#include "interfaces/plugin.h"
-#include "plumb/emitter.h"
-#include "plumb/shape.h"
+#include "base/emplace_with.h"
+#include "model/plugin.h"
+#include "plumb/model/emitter.h"
+#include "plumb/model/shape.h"
 
 namespace plumb {
 
@@ -77,7 +77,7 @@ private:
         const Vec3d towards = Vec3d(point.position) - Vec3d(receiver.position);
         const double facing = -dot(towards, Vec3d(point.normal)); // the distance times the cosine there
         if (!(facing > 0.0) || !receiver.counts_light_from(Vec3f(towards))) return std::nullopt;
-        return in_optional([&] {
+        return emplace_with([&] {
             const double distance2 = length_squared(towards);
             const double distance = std::sqrt(distance2);
             EmitterSample light;

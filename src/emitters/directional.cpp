@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 
-#include "interfaces/plugin.h"
-#include "plumb/emitter.h"
+#include "model/plugin.h"
+#include "plumb/model/emitter.h"
 
 #include <fmt/format.h>
 

@@ -3,10 +3,10 @@
 // Importance sampling of a picture of the sky follows pbrt, 4th ed., section 12.5.2, but for the shape of the cells:
 // here a cell's density is constant per unit solid angle, and its weight is the exact mean of what lookups in it give.
 
-#include "interfaces/plugin.h"
-#include "plumb/distribution.h"
-#include "plumb/emitter.h"
-#include "plumb/sampling.h"
+#include "model/plugin.h"
+#include "plumb/model/emitter.h"
+#include "plumb/sampling/distribution.h"
+#include "plumb/sampling/sampling.h"
 #include "textures/bitmap.h"
 
 #include <memory>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "filters/tabulated.h"
-#include "interfaces/plugin.h"
+#include "model/plugin.h"
 
 #include <fmt/format.h>
 

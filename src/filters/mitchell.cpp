@@ -3,7 +3,7 @@
 // [1] Mitchell and Netravali 1988, "Reconstruction Filters in Computer Graphics", SIGGRAPH.
 
 #include "filters/tabulated.h"
-#include "interfaces/plugin.h"
+#include "model/plugin.h"
 
 namespace plumb {
 

@@ -6,8 +6,8 @@
 // The table has 1024 cells over [0, radius], constant in each. The profile that is sampled so differs from f by its
 // curvature over a cell, a relative 1e-6; the weight is the same for all samples but for its sign.
 
-#include "plumb/distribution.h"
-#include "plumb/filter.h"
+#include "plumb/model/filter.h"
+#include "plumb/sampling/distribution.h"
 
 #include <array>
 #include <functional>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 
-#include "interfaces/plugin.h"
+#include "model/plugin.h"
 
-#include "plumb/filter.h"
+#include "plumb/model/filter.h"
 
 namespace plumb {
 

@@ -3,9 +3,9 @@
 // [1] Landis 2002, "Production-Ready Global Illumination", SIGGRAPH course 16
 
 #include "integrators/hemisphere_warp.h"
-#include "interfaces/plugin.h"
-#include "plumb/integrator.h"
-#include "plumb/tracer.h"
+#include "model/plugin.h"
+#include "plumb/model/integrator.h"
+#include "plumb/scene/tracer.h"
 
 namespace plumb {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 
-#include "interfaces/plugin.h"
-#include "plumb/integrator.h"
-#include "plumb/sampler.h"
-#include "plumb/sampling.h"
-#include "plumb/tracer.h"
+#include "model/plugin.h"
+#include "plumb/model/integrator.h"
+#include "plumb/model/sampler.h"
+#include "plumb/sampling/sampling.h"
+#include "plumb/scene/tracer.h"
 
 namespace plumb {
 

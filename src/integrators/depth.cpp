@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 
-#include "interfaces/plugin.h"
-#include "plumb/integrator.h"
-#include "plumb/tracer.h"
+#include "model/plugin.h"
+#include "plumb/model/integrator.h"
+#include "plumb/scene/tracer.h"
 
 namespace plumb {
 

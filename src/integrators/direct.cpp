@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 
+#include "integrators/delta_chain.h"
 #include "integrators/direct_technique.h"
-#include "integrators/discrete_chain.h"
-#include "interfaces/plugin.h"
-#include "plumb/integrator.h"
+#include "model/plugin.h"
+#include "plumb/model/integrator.h"
 
 namespace plumb {
 
 /// Emission and direct light from all lights, by the technique of your choice.
 ///
-/// Without parameters every emitter is sampled once. Emitters reflected by discrete BSDFs (mirror, smooth glass) are
+/// Without parameters every emitter is sampled once. Emitters reflected by delta BSDFs (mirror, smooth glass) are
 /// seen too, and lights that a technique cannot find (point and directional ones by hemisphere or bsdf) are sampled
 /// directly, so that all techniques agree.
 ///

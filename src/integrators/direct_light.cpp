@@ -2,8 +2,8 @@
 
 #include "integrators/direct_light.h"
 
-#include "plumb/error.h"
-#include "plumb/sampling.h"
+#include "plumb/base/error.h"
+#include "plumb/sampling/sampling.h"
 
 #include <fmt/format.h>
 

@@ -4,9 +4,9 @@
 // Estimates of the light that reaches a vertex straight from emitters and leaves it towards the camera.
 
 #include "integrators/vertex.h"
-#include "plumb/params.h"
-#include "plumb/sampler.h"
-#include "plumb/tracer.h"
+#include "plumb/model/params.h"
+#include "plumb/model/sampler.h"
+#include "plumb/scene/tracer.h"
 
 namespace plumb {
 
@@ -27,7 +27,7 @@ Color light_from_one_delta_emitter(Tracer& tracer, Sampler& sampler, const Verte
 Color light_from_all_emitters(Tracer& tracer, Sampler& sampler, const Vertex& vertex, Measure measure);
 Color light_from_all_delta_emitters(Tracer& tracer, Sampler& sampler, const Vertex& vertex);
 
-// What a ray into a sampled direction finds. Nothing for discrete samples: the path itself follows those.
+// What a ray into a sampled direction finds. Nothing for delta samples: the path itself follows those.
 Color light_along(Tracer& tracer, const Vertex& vertex, const std::optional<BsdfSample>& sampled);
 
 // What an emitter's chosen point adds, if it is visible. f_cos: the BSDF's value towards it.

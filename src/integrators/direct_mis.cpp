@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "integrators/path_estimator.h"
-#include "interfaces/plugin.h"
+#include "model/plugin.h"
 
 namespace plumb {
 
@@ -13,7 +13,7 @@ namespace plumb {
 class DirectMis final : public EstimatorIntegrator {
 public:
     explicit DirectMis(const Params&)
-        : EstimatorIntegrator(PathEstimator::direct_light(PathEstimator::Finder::both))
+        : EstimatorIntegrator(PathEstimator::direct_light(PathEstimator::LightStrategy::both))
     {}
 };
 

@@ -2,10 +2,10 @@
 
 // [1] Veach 1997, "Robust Monte Carlo Methods for Light Transport Simulation", section 9.2
 
+#include "integrators/delta_chain.h"
 #include "integrators/direct_technique.h"
-#include "integrators/discrete_chain.h"
-#include "interfaces/plugin.h"
-#include "plumb/integrator.h"
+#include "model/plugin.h"
+#include "plumb/model/integrator.h"
 
 namespace plumb {
 

@@ -73,7 +73,7 @@ float DirectTechnique::density(const Scene& scene, const Vertex& vertex, const V
                                const BsdfValue& value, const SurfacePoint* hit) const
 {
     if (samples_emitters()) return scene.emission(vertex.receiver(), wo_world, hit, measure()).pdf;
-    const bool by_bsdf = kind_ == Kind::bsdf || vertex.has_discrete_lobes() || vertex.has_transmission();
+    const bool by_bsdf = kind_ == Kind::bsdf || vertex.has_delta_lobes() || vertex.has_transmission();
     return by_bsdf ? value.pdf : hemisphere_pdf(warp_, vertex.at().shading.to_local(wo_world));
 }
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 
+#include "integrators/delta_chain.h"
 #include "integrators/direct_light.h"
-#include "integrators/discrete_chain.h"
-#include "interfaces/plugin.h"
-#include "plumb/integrator.h"
+#include "model/plugin.h"
+#include "plumb/model/integrator.h"
 
 namespace plumb {
 
 /// Emission and direct light, by one sample of every emitter.
 ///
-/// Emitters reflected by discrete BSDFs (mirror, smooth glass) are seen too. No parameters.
+/// Emitters reflected by delta BSDFs (mirror, smooth glass) are seen too. No parameters.
 ///
 ///         <integrator type="direct_whitted"/>
 class DirectWhitted final : public Integrator, public SingleDiscreteBounce {

@@ -4,9 +4,9 @@
 // Directions chosen on the hemisphere about the shading normal without asking the BSDF.
 
 #include "integrators/vertex.h"
-#include "plumb/params.h"
-#include "plumb/sampler.h"
-#include "plumb/sampling.h"
+#include "plumb/model/params.h"
+#include "plumb/model/sampler.h"
+#include "plumb/sampling/sampling.h"
 
 #include <string_view>
 
@@ -42,10 +42,10 @@ inline std::optional<BsdfSample> scatter_over_hemisphere(HemisphereWarp warp, Sa
     return BsdfSample{wo, value.f_cos / pdf, pdf};
 }
 
-// The same, except that BSDFs which the hemisphere cannot serve, discrete and transmitting ones, choose themselves.
+// The same, except that BSDFs which the hemisphere cannot serve, delta and transmitting ones, choose themselves.
 inline std::optional<BsdfSample> scatter_by_warp(HemisphereWarp warp, Sampler& sampler, const Vertex& vertex)
 {
-    if (!vertex.has_discrete_lobes() && !vertex.has_transmission())
+    if (!vertex.has_delta_lobes() && !vertex.has_transmission())
         return scatter_over_hemisphere(warp, sampler, vertex);
     const float u_lobe = sampler.next_1d();
     const Vec2f u = sampler.next_2d();

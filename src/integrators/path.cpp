@@ -5,8 +5,8 @@
 
 #include "integrators/configured_path.h"
 #include "integrators/path_estimator.h"
-#include "interfaces/plugin.h"
-#include "plumb/integrator.h"
+#include "model/plugin.h"
+#include "plumb/model/integrator.h"
 
 #include <variant>
 
@@ -20,7 +20,7 @@ namespace plumb {
 ///
 /// With one of the parameters of the second table it is the configurable path tracer of the McGill course instead.
 /// Implicit mode counts every emitter that the path meets. Explicit mode samples all emitters at each surface, once
-/// each, and counts an emitter that the path meets only if the camera sees it, directly or by discrete bounces
+/// each, and counts an emitter that the path meets only if the camera sees it, directly or by delta bounces
 /// (mirror, smooth glass); so it is unbiased. Discrete and transmitting BSDFs choose their directions themselves,
 /// whatever the warps say.
 ///
@@ -81,7 +81,7 @@ private:
     static Estimator estimator(const Params& params)
     {
         if (ConfiguredPath::is_asked_for(params)) return ConfiguredPath(params);
-        return PathEstimator(PathEstimator::Finder::path, PathLimits(params));
+        return PathEstimator(PathEstimator::LightStrategy::path, PathLimits(params));
     }
 
     Estimator estimator_;

@@ -19,7 +19,7 @@ PathLimits::PathLimits(const Params& params)
         static_cast<int>(params.integer("rrDepth", roulette_depth, Range::closed(0, largest_depth)));
 }
 
-PathEstimator PathEstimator::direct_light(Finder finder)
+PathEstimator PathEstimator::direct_light(LightStrategy finder)
 {
     PathLimits one_bounce;
     one_bounce.max_depth = 1;
@@ -33,10 +33,10 @@ Color PathEstimator::radiance(Tracer& tracer, Sampler& sampler, const Ray& ray) 
 
 Color PathEstimator::direct(Tracer& tracer, Sampler& sampler, const Vertex& vertex) const
 {
-    switch (finder_) {
-    case Finder::path: return light_from_one_delta_emitter(tracer, sampler, vertex);
-    case Finder::emitter_samples: return light_from_one_emitter(tracer, sampler, vertex);
-    case Finder::both: return light_from_one_emitter(tracer, sampler, vertex, heuristic_);
+    switch (strategy_) {
+    case LightStrategy::path: return light_from_one_delta_emitter(tracer, sampler, vertex);
+    case LightStrategy::emitter_samples: return light_from_one_emitter(tracer, sampler, vertex);
+    case LightStrategy::both: return light_from_one_emitter(tracer, sampler, vertex, heuristic_);
     }
     return Color(0.f);
 }

@@ -5,7 +5,7 @@
 
 #include "integrators/direct_light.h"
 #include "integrators/path_loop.h"
-#include "plumb/integrator.h"
+#include "plumb/model/integrator.h"
 
 namespace plumb {
 
@@ -22,13 +22,14 @@ class PathEstimator {
 public:
     // Who finds the emitters: the path's own directions (and nothing is lost but speed), one emitter sample a vertex
     // (and the path counts only what no such sample could find), or both.
-    enum class Finder { path, emitter_samples, both };
+    enum class LightStrategy { path, emitter_samples, both };
 
-    explicit PathEstimator(Finder finder, PathLimits limits = {}, Heuristic heuristic = Heuristic::power)
-        : finder_(finder), limits_(limits), heuristic_(heuristic)
+    explicit PathEstimator(LightStrategy finder, PathLimits limits = {},
+                           Heuristic heuristic = Heuristic::power)
+        : strategy_(finder), limits_(limits), heuristic_(heuristic)
     {}
     // Direct light only: one bounce.
-    static PathEstimator direct_light(Finder finder);
+    static PathEstimator direct_light(LightStrategy finder);
 
     Color radiance(Tracer& tracer, Sampler& sampler, const Ray& ray) const;
 
@@ -36,11 +37,11 @@ public:
     int max_depth() const { return limits_.max_depth; }
     bool counts_emission(const PathState& path) const
     {
-        return finder_ != Finder::emitter_samples || path.discrete;
+        return strategy_ != LightStrategy::emitter_samples || path.delta;
     }
     float emission_weight(const PathState& path, float light_pdf) const
     {
-        return finder_ == Finder::both ? mis_weight(heuristic_, path.pdf, light_pdf) : 1.f;
+        return strategy_ == LightStrategy::both ? mis_weight(heuristic_, path.pdf, light_pdf) : 1.f;
     }
     Color direct(Tracer& tracer, Sampler& sampler, const Vertex& vertex) const;
     std::optional<BsdfSample> scatter(Sampler& sampler, const Vertex& vertex) const
@@ -52,7 +53,7 @@ public:
     float survival(const PathState& path, int bounces) const;
 
 private:
-    Finder finder_;
+    LightStrategy strategy_;
     PathLimits limits_;
     Heuristic heuristic_;
 };

@@ -13,8 +13,8 @@ const char* name_of(Lobe lobe)
     case Lobe::diffuse_reflection: return "diffuse reflection";
     case Lobe::glossy_reflection: return "glossy reflection";
     case Lobe::glossy_transmission: return "glossy transmission";
-    case Lobe::delta_reflection: return "discrete reflection";
-    case Lobe::delta_transmission: return "discrete transmission";
+    case Lobe::delta_reflection: return "delta reflection";
+    case Lobe::delta_transmission: return "delta transmission";
     }
     return "";
 }

@@ -11,8 +11,8 @@
 //     float survival(const PathState&, int bounces) const       the chance that it does; 1: no roulette
 
 #include "integrators/vertex.h"
-#include "plumb/sampler.h"
-#include "plumb/tracer.h"
+#include "plumb/model/sampler.h"
+#include "plumb/scene/tracer.h"
 
 namespace plumb {
 
@@ -26,8 +26,8 @@ struct PathState {
     // 1/eta^2 there until it leaves (pbrt 4th ed., section 13.4).
     float eta_scale = 1.f;
     LightReceiver receiver; // the camera or the last vertex
-    float pdf = 0.f;        // of the last direction, unless discrete
-    bool discrete = true; // nothing but following the path finds what it sees: camera rays and delta bounces
+    float pdf = 0.f;        // of the last direction, unless delta
+    bool delta = true; // nothing but following the path finds what it sees: camera rays and delta bounces
 
     void extend(const Vertex& vertex, const BsdfSample& next)
     {
@@ -35,7 +35,7 @@ struct PathState {
         eta_scale *= sqr(next.eta);
         receiver = vertex.receiver();
         pdf = next.pdf;
-        discrete = next.is_delta();
+        delta = next.is_delta();
     }
 };
 
@@ -54,7 +54,7 @@ Color emitted(const Technique& technique, Tracer& tracer, const PathState& path,
     if ((hit && !hit->emitter) || !technique.counts_emission(path)) return Color(0.f);
     const EmitterValue light = tracer.scene().emission(path.receiver, ray.direction, hit ? &*hit : nullptr);
     if (light.radiance.is_black()) return Color(0.f);
-    const float weight = path.discrete ? 1.f : technique.emission_weight(path, light.pdf);
+    const float weight = path.delta ? 1.f : technique.emission_weight(path, light.pdf);
     const Color contribution = path.throughput * light.radiance * weight;
     if (tracer.logging()) tracer.log_contribution(PathEvent::Kind::emission, "emission", contribution);
     return contribution;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "integrators/path_estimator.h"
-#include "interfaces/plugin.h"
+#include "model/plugin.h"
 
 namespace plumb {
 
@@ -14,7 +14,7 @@ namespace plumb {
 class PathMats final : public EstimatorIntegrator {
 public:
     explicit PathMats(const Params& params)
-        : EstimatorIntegrator(PathEstimator(PathEstimator::Finder::path, PathLimits(params)))
+        : EstimatorIntegrator(PathEstimator(PathEstimator::LightStrategy::path, PathLimits(params)))
     {}
 };
 

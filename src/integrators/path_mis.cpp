@@ -3,14 +3,14 @@
 // [1] Veach 1997, "Robust Monte Carlo Methods for Light Transport Simulation", section 9.2
 
 #include "integrators/path_estimator.h"
-#include "interfaces/plugin.h"
+#include "model/plugin.h"
 
 namespace plumb {
 
 /// All light, by paths that find emitters in two ways: one emitter sample at each surface, and the path itself.
 ///
 /// Both are weighted by multiple importance sampling (Veach 1997, section 9.2), so each does what it is good at. What
-/// only one of them can find (point lights; what is seen after a discrete bounce) has weight 1. The integrator to
+/// only one of them can find (point lights; what is seen after a delta bounce) has weight 1. The integrator to
 /// use when in doubt.
 ///
 ///     maxDepth    integer   surface bounces: 0 shows emitters only, 1 direct light, -1 everything   (default -1)
@@ -24,7 +24,7 @@ class PathMis final : public EstimatorIntegrator {
 public:
     explicit PathMis(const Params& params)
         : EstimatorIntegrator(
-              PathEstimator(PathEstimator::Finder::both, PathLimits(params), heuristic_of(params)))
+              PathEstimator(PathEstimator::LightStrategy::both, PathLimits(params), heuristic_of(params)))
     {}
 };
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 
 #include "integrators/direct_light.h"
-#include "interfaces/plugin.h"
-#include "plumb/integrator.h"
+#include "model/plugin.h"
+#include "plumb/model/integrator.h"
 
 namespace plumb {
 

@@ -3,8 +3,8 @@
 
 // A surface point of a path together with the direction that the path came from: where BSDFs are asked.
 
-#include "plumb/bsdf.h"
-#include "plumb/emitter.h"
+#include "plumb/model/bsdf.h"
+#include "plumb/model/emitter.h"
 
 namespace plumb {
 
@@ -20,7 +20,7 @@ public:
     {}
 
     const SurfacePoint& at() const { return at_; }
-    bool has_discrete_lobes() const { return lobes_.has_any(delta_lobes); }
+    bool has_delta_lobes() const { return lobes_.has_any(delta_lobes); }
     bool has_transmission() const { return lobes_.has_any(transmission_lobes); }
     // Whether evaluate() can be anything but black.
     bool has_smooth_lobes() const { return (lobes_.bits & ~delta_lobes.bits) != 0; }

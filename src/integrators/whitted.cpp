@@ -2,20 +2,20 @@
 
 // [1] Whitted 1980, "An Improved Illumination Model for Shaded Display"
 
+#include "integrators/delta_chain.h"
 #include "integrators/direct_light.h"
-#include "integrators/discrete_chain.h"
-#include "interfaces/plugin.h"
-#include "plumb/integrator.h"
+#include "model/plugin.h"
+#include "plumb/model/integrator.h"
 
 namespace plumb {
 
 /// Emission, direct light, and what is seen in mirrors and through smooth glass (Whitted 1980).
 ///
-/// One sample of one emitter, chosen by what it is expected to send there, at the first surface that is not discrete;
-/// discrete bounces are followed with probability 0.95 each, and weighted by its inverse. No parameters.
+/// One sample of one emitter, chosen by what it is expected to send there, at the first surface that is not delta;
+/// delta bounces are followed with probability 0.95 each, and weighted by its inverse. No parameters.
 ///
 ///         <integrator type="whitted"/>
-class Whitted final : public Integrator, public DiscreteChain {
+class Whitted final : public Integrator, public DeltaChain {
 public:
     explicit Whitted(const Params&) {}
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 
-#include "plumb/direction_cone.h"
+#include "plumb/math/direction_cone.h"
 
-#include "plumb/elementary.h"
+#include "plumb/math/elementary.h"
 
 namespace plumb {
 namespace {

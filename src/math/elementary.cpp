@@ -6,7 +6,7 @@
 //     products with a small integer to be exact.
 // [2] Knuth, The Art of Computer Programming, volume 2, section 4.2.2: what an addition has rounded away.
 
-#include "plumb/elementary.h"
+#include "plumb/math/elementary.h"
 
 #include "math/series.h"
 

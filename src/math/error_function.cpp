@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-#include "plumb/elementary.h"
+#include "plumb/math/elementary.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 //
 // [1] Estrin 1960: a polynomial as a tree, which is faster than Horner's chain.
 
-#include "plumb/elementary.h"
+#include "plumb/math/elementary.h"
 
 #include <array>
 #include <cstddef>

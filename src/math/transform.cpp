@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 
-#include "plumb/transform.h"
+#include "plumb/math/transform.h"
 
-#include "plumb/elementary.h"
+#include "plumb/math/elementary.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 
-#include "plumb/evidence.h"
+#include "plumb/render/evidence.h"
 
-#include "plumb/statistics.h"
+#include "plumb/statistics/statistics.h"
 
 #include <fmt/format.h>
 
@@ -50,9 +50,9 @@ std::optional<NoiseEstimate> estimate_relative_noise(const Film& film)
     return NoiseEstimate{noise->rmse / mean, noise->low / mean, noise->high / mean};
 }
 
-Ledger make_ledger(const RenderJob& job, const Dialect& dialect)
+BiasReport make_ledger(const RenderJob& job, const Dialect& dialect)
 {
-    Ledger ledger;
+    BiasReport ledger;
     if (std::string bias = job.integrator->bias(); !bias.empty()) ledger.biases.push_back(std::move(bias));
     if (dialect.emitters_absorb) ledger.model.emplace_back("emitters absorb the light that meets them");
     if (dialect.mirrored_view) ledger.model.emplace_back("the view is mirrored");
@@ -64,7 +64,7 @@ Ledger make_ledger(const RenderJob& job, const Dialect& dialect)
     return ledger;
 }
 
-Evidence make_evidence(Ledger before, const RenderState& state, const std::string& stop)
+Evidence make_evidence(BiasReport before, const RenderState& state, const std::string& stop)
 {
     const PixelRect& window = state.film.window();
     Evidence evidence{std::move(before),

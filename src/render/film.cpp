@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 
-#include "plumb/film.h"
+#include "plumb/render/film.h"
 
-#include "core/parallel.h"
-#include "plumb/error.h"
+#include "base/parallel.h"
+#include "plumb/base/error.h"
 
 #include <array>
 #include <mutex>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 
-#include "plumb/render.h"
+#include "plumb/render/render.h"
 
-#include "core/parallel.h"
-#include "plumb/error.h"
+#include "base/float_mode.h"
+#include "base/parallel.h"
+#include "plumb/base/error.h"
 #include "render/tiles.h"
-#include "scene/float_mode.h"
 
 #include <atomic>
 #include <chrono>

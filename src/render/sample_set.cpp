@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 
-#include "plumb/sample_set.h"
+#include "plumb/render/sample_set.h"
 
-#include "plumb/sampler.h"
+#include "plumb/model/sampler.h"
 #include "render/tiles.h"
 
 #include <algorithm>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 
-#include "plumb/state_file.h"
+#include "plumb/render/state_file.h"
 
-#include "core/parallel.h"
-#include "io/image_words.h"
-#include "plumb/error.h"
+#include "base/parallel.h"
+#include "image/image_words.h"
+#include "plumb/base/error.h"
 #include "render/state_hash.h"
 
 #include <algorithm>

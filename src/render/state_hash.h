@@ -3,8 +3,8 @@
 
 // The integrity of a state file: the hash of its header, of its channels' names and of the hashes of its rows.
 
-#include "plumb/hash.h"
-#include "plumb/image.h"
+#include "plumb/base/hash.h"
+#include "plumb/image/image.h"
 
 #include <cstdint>
 #include <span>

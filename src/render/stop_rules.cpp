@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-#include "plumb/stop_rules.h"
+#include "plumb/render/stop_rules.h"
 
 #include <algorithm>
 #include <bit>
@@ -18,20 +18,20 @@ std::uint64_t step_at(std::uint64_t samples)
 
 } // namespace
 
-std::uint64_t next_look(std::uint64_t samples)
+std::uint64_t next_convergence_check(std::uint64_t samples)
 {
     const std::uint64_t step = step_at(samples);
     return (samples / step + 1) * step;
 }
 
-bool is_look(std::uint64_t samples)
+bool is_convergence_check(std::uint64_t samples)
 {
     return samples > 0 && samples % step_at(samples) == 0;
 }
 
 std::uint64_t next_stop(const StopRules& rules, std::uint64_t samples, double seconds)
 {
-    const std::uint64_t next = std::min(next_look(samples), rules.samples_per_pixel);
+    const std::uint64_t next = std::min(next_convergence_check(samples), rules.samples_per_pixel);
     if (!rules.seconds || samples >= next) return next;
     if (samples == 0) return 1;
     const double seconds_each = seconds / static_cast<double>(samples);

@@ -3,7 +3,7 @@
 
 // How a picture is cut into tiles: a pure function. The cut changes no bit of the picture.
 
-#include "plumb/image.h"
+#include "plumb/image/image.h"
 
 #include <algorithm>
 #include <vector>

@@ -3,8 +3,8 @@
 
 // What samplers have in common: the parameter, and random words for whole pixels.
 
-#include "plumb/params.h"
-#include "plumb/sampler.h"
+#include "plumb/model/params.h"
+#include "plumb/model/sampler.h"
 
 namespace plumb {
 

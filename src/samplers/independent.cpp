@@ -2,7 +2,7 @@
 
 // [1] Salmon, Moraes, Dror and Shaw 2011, "Parallel Random Numbers: As Easy as 1, 2, 3", SC'11.
 
-#include "interfaces/plugin.h"
+#include "model/plugin.h"
 #include "samplers/hashed.h"
 
 #ifdef __AVX2__

@@ -4,7 +4,7 @@
 // [2] Joe and Kuo 2008, "Constructing Sobol Sequences with Better Two-dimensional Projections", SIAM J. Sci. Comput. 30
 // [3] Vegdahl 2021, "Building a Better LK Hash", https://psychopath.io/post/2021_01_30_building_a_better_lk_hash
 
-#include "interfaces/plugin.h"
+#include "model/plugin.h"
 #include "samplers/hashed.h"
 
 #include <cstring>

@@ -3,7 +3,7 @@
 // [1] Luby and Rackoff 1988, "How to Construct Pseudorandom Permutations from Pseudorandom Functions", SIAM J. Comput. 17(2)
 // [2] Black and Rogaway 2002, "Ciphers with Arbitrary Finite Domains", CT-RSA, section 3
 
-#include "interfaces/plugin.h"
+#include "model/plugin.h"
 #include "samplers/hashed.h"
 
 #include <bit>

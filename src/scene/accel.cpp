@@ -4,10 +4,10 @@
 
 #include "scene/accel.h"
 
-#include "core/elided.h"
-#include "plumb/error.h"
-#include "plumb/instruction_set.h"
-#include "plumb/intersection.h"
+#include "base/emplace_with.h"
+#include "plumb/base/error.h"
+#include "plumb/scene/instruction_set.h"
+#include "shapes/intersection.h"
 
 #include <cstring>
 #include <mutex>
@@ -261,7 +261,7 @@ std::optional<SurfacePoint> Scene::intersect(const Ray& ray) const
         point.emitter_index = emitter_of_object_[hit.object];
         return point;
     };
-    return in_optional(surface_point);
+    return emplace_with(surface_point);
 }
 
 bool Scene::occluded(const Ray& ray) const

@@ -4,7 +4,7 @@
 // The acceleration structure: Embree behind a door. It says which primitive a ray meets first and nothing else;
 // where exactly is computed by the shape.
 
-#include "plumb/scene.h"
+#include "plumb/scene/scene.h"
 
 #include <atomic>
 #include <cstddef>

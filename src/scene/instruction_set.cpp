@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "plumb/instruction_set.h"
+#include "plumb/scene/instruction_set.h"
 
 namespace plumb {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-#include "plumb/light_tree.h"
+#include "plumb/scene/light_tree.h"
 
 #include <cmath>
 

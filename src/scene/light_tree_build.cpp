@@ -2,9 +2,9 @@
 
 // Building a light tree: groups of lights that are near each other and shine the same way.
 
-#include "plumb/direction_cone.h"
-#include "plumb/elementary.h"
-#include "plumb/light_tree.h"
+#include "plumb/math/direction_cone.h"
+#include "plumb/math/elementary.h"
+#include "plumb/scene/light_tree.h"
 
 #include <algorithm>
 #include <cmath>

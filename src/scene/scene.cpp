@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-#include "plumb/scene.h"
+#include "plumb/scene/scene.h"
 
 #include "scene/accel.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-#include "plumb/tracer.h"
+#include "plumb/scene/tracer.h"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "scene_file/after_load.h"
 
-#include "plumb/dialect.h"
-#include "plumb/scene_file.h"
+#include "plumb/model/dialect.h"
+#include "plumb/scene_file/scene_file.h"
 
 #include <algorithm>
 

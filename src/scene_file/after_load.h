@@ -3,7 +3,7 @@
 
 // What is looked for in a scene that has been built.
 
-#include "plumb/render.h"
+#include "plumb/render/render.h"
 #include "scene_file/document.h"
 
 #include <string>

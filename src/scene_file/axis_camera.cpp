@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "scene_file/axis_camera.h"
 
-#include "plumb/transform.h"
-#include "scene_file/values.h"
+#include "plumb/math/transform.h"
+#include "scene_file/property_values.h"
 
 #include <algorithm>
 

@@ -3,7 +3,7 @@
 
 // Cameras whose lookat has no up.
 
-#include "plumb/math.h"
+#include "plumb/math/math.h"
 #include "scene_file/document.h"
 
 namespace plumb {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "scene_file/build.h"
 
-#include "core/memory.h"
-#include "core/parallel.h"
+#include "base/memory.h"
+#include "base/parallel.h"
 #include "scene_file/axis_camera.h"
 #include "scene_file/build_child.h"
 #include "scene_file/foreign_names.h"
 #include "scene_file/placement.h"
-#include "scene_file/values.h"
+#include "scene_file/property_values.h"
 
 #include <algorithm>
 

@@ -3,7 +3,7 @@
 
 // From the tree of a scene file to the parts of a RenderJob.
 
-#include "plumb/scene_file.h"
+#include "plumb/scene_file/scene_file.h"
 #include "scene_file/objects.h"
 
 namespace plumb {

@@ -4,7 +4,7 @@
 // Children of <scene> that may read files. Each is built on its own, with messages of its own, so that several can be
 // built at a time.
 
-#include "plumb/scene.h"
+#include "plumb/scene/scene.h"
 #include "scene_file/objects.h"
 
 namespace plumb {

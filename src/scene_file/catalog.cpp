@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "scene_file/catalog.h"
 
-#include "plumb/scene_file.h"
+#include "plumb/scene_file/scene_file.h"
 #include "scene_file/manual.h"
 
 #include <algorithm>

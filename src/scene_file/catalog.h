@@ -3,7 +3,7 @@
 
 // Every type name that the scene language knows.
 
-#include "plumb/params.h"
+#include "plumb/model/params.h"
 
 #include <span>
 

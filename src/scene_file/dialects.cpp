@@ -169,9 +169,9 @@ DialectChoice choose_dialect(const Element& root, const DialectWishes& wishes, D
                 root.value_place(*attribute),
                 fmt::format("unknown dialect '{}'{}", attribute->value, way_out(attribute->value, known)));
     } else {
-        const bool has_folder = root.tag == "scene" && root.file;
-        choice.evidence =
-            find_dialect(root, has_folder ? scene_files_beside(root.file->path()) : std::vector<Element>());
+        const bool has_directory = root.tag == "scene" && root.file;
+        choice.evidence = find_dialect(root, has_directory ? scene_files_beside(root.file->path())
+                                                           : std::vector<Element>());
         dialect = reading_of(*choice.evidence);
     }
 

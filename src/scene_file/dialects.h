@@ -18,10 +18,10 @@ struct DialectEvidence {
     bool has_second_mark = false;      // independent of the first: enough for a mirrored view or a scaled map
     std::vector<DialectName> suspects; // that have some of the marks, where these do not decide
 };
-// beside: the scene files in the same folder, which are asked if the file itself says nothing.
+// beside: the scene files in the same directory, which are asked if the file itself says nothing.
 DialectEvidence find_dialect(const Element& root, const std::vector<Element>& beside = {});
 
-// The other scene files in a folder, in the order of their names, for find_dialect(). None if there are very many, or
+// The other scene files in a directory, in the order of their names, for find_dialect(). None if there are very many, or
 // if one of them names its dialect: who knows the attribute leaves it out on purpose.
 std::vector<Element> scene_files_beside(const std::filesystem::path& scene);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "scene_file/document.h"
 
-#include "io/regular_file.h"
+#include "base/regular_file.h"
 #include "scene_file/foreign_files.h"
 #include "scene_file/xml_scan.h"
 
@@ -144,7 +144,7 @@ std::string read_text(const std::filesystem::path& path)
 {
     std::error_code status;
     if (std::filesystem::is_directory(path, status))
-        throw Error(fmt::format("'{}' is a folder, not a scene file", path.string()));
+        throw Error(fmt::format("'{}' is a directory, not a scene file", path.string()));
     if (!std::filesystem::exists(path, status))
         throw Error(fmt::format("there is no file '{}'", path.string()));
     const RegularFile file(path);

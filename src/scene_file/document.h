@@ -4,7 +4,7 @@
 // A scene file as text and as a tree, with the place of every tag, attribute and value. document.cpp is the only user
 // of pugixml.
 
-#include "plumb/error.h"
+#include "plumb/base/error.h"
 
 #include <filesystem>
 #include <memory>
@@ -21,7 +21,7 @@ public:
     TextFile(std::filesystem::path path, std::string text, bool hides_lines);
 
     const std::filesystem::path& path() const { return path_; }
-    std::filesystem::path folder() const { return path_.parent_path(); }
+    std::filesystem::path directory() const { return path_.parent_path(); }
     const std::string& text() const { return text_; }
     SourceLocation place(std::size_t offset, std::size_t length) const;
 

@@ -44,7 +44,7 @@ For example:
     boolean   true or false
     integer   a whole number
     float     a number; an integer will do
-    string    text; names of files are seen from the folder of the file that they stand in
+    string    text; names of files are seen from the directory of the file that they stand in
     point     three numbers
     vector    three numbers, or two where a texture takes u and v
     color     three numbers: linear RGB
@@ -56,7 +56,7 @@ Numbers in a list are separated by commas or blanks. For example:
 )"},
     {"include", R"(Puts the children of another file's root in its place.
 
-    filename   seen from the folder of the file that it stands in
+    filename   seen from the directory of the file that it stands in
 
 It stands in <scene> (in suites: in <suite> or <group>). For example:
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "scene_file/expand.h"
 
-#include "core/named_file.h"
+#include "base/named_file.h"
 #include "scene_file/foreign_files.h"
 #include "scene_file/placement.h"
-#include "scene_file/values.h"
+#include "scene_file/property_values.h"
 
 #include <algorithm>
 #include <set>
@@ -137,7 +137,7 @@ private:
         substitute_all(element);
         if (element.attribute("filename")->broken) return;
         const auto [path, way_out, notice] =
-            find_named_file(element.file->folder(), element.value("filename"));
+            find_named_file(element.file->directory(), element.value("filename"));
         const SourceLocation at = element.value_place(*element.attribute("filename"));
         const auto fail = [&](std::string message) { diagnostics_.error(at, std::move(message)); };
         if (!notice.empty()) diagnostics_.warning(at, notice);

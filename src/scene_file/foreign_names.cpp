@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "scene_file/foreign_names.h"
 
-#include "core/lower_case.h"
+#include "base/lower_case.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "core/parallel.h"
-#include "plumb/hash.h"
-#include "plumb/scene_file.h"
+#include "base/parallel.h"
+#include "plumb/base/hash.h"
+#include "plumb/scene_file/scene_file.h"
 #include "scene_file/after_load.h"
 #include "scene_file/build.h"
 #include "scene_file/dialects.h"

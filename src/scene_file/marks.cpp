@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "scene_file/marks.h"
 
-#include "scene_file/values.h"
+#include "scene_file/property_values.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -88,9 +88,9 @@ const Element* child_named(const Element& element, std::string_view name)
     return found == element.children.end() ? nullptr : &*found;
 }
 
-class Finder {
+class LightStrategy {
 public:
-    Finder(const Element& root, bool beside) : root_(root), beside_(beside) {}
+    LightStrategy(const Element& root, bool beside) : root_(root), beside_(beside) {}
 
     std::vector<Mark> find()
     {
@@ -155,7 +155,7 @@ private:
 
 std::vector<Mark> find_marks(const Element& root, bool beside)
 {
-    return Finder(root, beside).find();
+    return LightStrategy(root, beside).find();
 }
 
 void add_marks(std::vector<Mark>& marks, const std::vector<Mark>& more)

@@ -3,7 +3,7 @@
 
 // What in a file tells of a course: a pure function of its elements.
 
-#include "plumb/dialect.h"
+#include "plumb/model/dialect.h"
 #include "scene_file/document.h"
 
 #include <string>
@@ -33,7 +33,7 @@ constexpr unsigned course_bit(DialectName name)
     return 1U << static_cast<unsigned>(name);
 }
 
-// Those of a <scene> or <test>, each once. beside: of a file in the folder of the one that is read, whose name the
+// Those of a <scene> or <test>, each once. beside: of a file in the directory of the one that is read, whose name the
 // texts then have.
 std::vector<Mark> find_marks(const Element& root, bool beside);
 

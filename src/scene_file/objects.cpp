@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "scene_file/objects.h"
 
-#include "plumb/scene_file.h"
+#include "plumb/scene_file/scene_file.h"
 #include "scene_file/foreign_names.h"
 #include "scene_file/manual.h"
 #include "scene_file/placement.h"
-#include "scene_file/values.h"
+#include "scene_file/property_values.h"
 
 #include <algorithm>
 #include <new>
@@ -40,7 +40,7 @@ ObjectReader::ObjectReader(const Element& element, LoadContext& context,
       context_(context),
       type_(element.value("type")),
       params_(element.tag, type_, element.place(), context.diagnostics, context.dialect,
-              element.file->folder())
+              element.file->directory())
 {
     params_.set_lenient(context.lenient);
     if (element.tag == "test")

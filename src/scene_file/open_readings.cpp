@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What other readings of a scene would change in its picture.
 
-#include "plumb/scene.h"
+#include "plumb/scene/scene.h"
 #include "scene_file/dialects.h"
 
 #include <algorithm>

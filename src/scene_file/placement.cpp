@@ -3,7 +3,7 @@
 
 #include "scene_file/catalog.h"
 #include "scene_file/foreign_names.h"
-#include "scene_file/values.h"
+#include "scene_file/property_values.h"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/lower_case.h"
+#include "base/lower_case.h"
 #include "scene_file/dialects.h"
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A course's folder holds a dozen scenes. Where there are many more, files have other reasons to lie together.
+// A course's directory holds a dozen scenes. Where there are many more, files have other reasons to lie together.
 constexpr std::size_t most_entries = 5000;
 constexpr std::size_t most_files = 64;
 constexpr std::uintmax_t most_bytes = 1U << 20; // of one
@@ -20,9 +20,9 @@ std::vector<fs::path> xml_files_beside(const fs::path& scene)
 {
     std::vector<fs::path> files;
     std::error_code failed;
-    const fs::path folder = scene.parent_path().empty() ? fs::path(".") : scene.parent_path();
+    const fs::path directory = scene.parent_path().empty() ? fs::path(".") : scene.parent_path();
     std::size_t entries = 0;
-    for (fs::directory_iterator entry(folder, failed), end; !failed && entry != end;
+    for (fs::directory_iterator entry(directory, failed), end; !failed && entry != end;
          entry.increment(failed)) {
         if (++entries > most_entries) return {};
         std::error_code ignored;

@@ -2,7 +2,7 @@
 // <transform> and the operations in it.
 
 #include "scene_file/placement.h"
-#include "scene_file/values.h"
+#include "scene_file/property_values.h"
 
 #include <algorithm>
 

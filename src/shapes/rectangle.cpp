@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 
-#include "interfaces/plugin.h"
-#include "plumb/shape.h"
+#include "model/plugin.h"
+#include "plumb/model/shape.h"
 #include "shapes/spherical_rectangle.h"
 #include "shapes/triangle.h"
 

@@ -2,11 +2,11 @@
 
 // [1] Pharr, Jakob and Humphreys 2023, Physically Based Rendering, 4th edition, section 6.2.4.
 
-#include "interfaces/plugin.h"
-#include "plumb/elementary.h"
-#include "plumb/intersection.h"
-#include "plumb/sampling.h"
-#include "plumb/shape.h"
+#include "model/plugin.h"
+#include "plumb/math/elementary.h"
+#include "plumb/model/shape.h"
+#include "plumb/sampling/sampling.h"
+#include "shapes/intersection.h"
 
 #include <utility>
 

@@ -4,7 +4,7 @@
 
 #include "shapes/spherical_rectangle.h"
 
-#include "plumb/elementary.h"
+#include "plumb/math/elementary.h"
 
 #include <utility>
 

@@ -6,7 +6,7 @@
 // Conventions. World space, double precision. A place on the rectangle is given by the fractions of its two edges,
 // (0, 0) at the corner and (1, 1) opposite to it.
 
-#include "plumb/math.h"
+#include "plumb/math/math.h"
 
 #include <optional>
 

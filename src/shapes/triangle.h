@@ -3,8 +3,8 @@
 
 // What triangle meshes and rectangles share: points of a triangle, and how far they may be from what Embree traces.
 
-#include "plumb/intersection.h"
-#include "plumb/math.h"
+#include "plumb/math/math.h"
+#include "shapes/intersection.h"
 
 namespace plumb {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 
-#include "interfaces/plugin.h"
-#include "plumb/distribution.h"
-#include "plumb/mesh.h"
-#include "plumb/sampling.h"
-#include "plumb/shape.h"
+#include "model/plugin.h"
+#include "plumb/model/shape.h"
+#include "plumb/sampling/distribution.h"
+#include "plumb/sampling/sampling.h"
+#include "plumb/shapes/mesh.h"
 #include "shapes/spherical_rectangle.h"
 #include "shapes/triangle.h"
 

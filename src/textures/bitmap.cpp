@@ -2,8 +2,8 @@
 
 #include "textures/bitmap.h"
 
-#include "plumb/error.h"
-#include "plumb/image.h"
+#include "plumb/base/error.h"
+#include "plumb/image/image.h"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 
 // A picture to look colours up in, for textures and environment light.
 
-#include "plumb/color.h"
+#include "plumb/math/color.h"
 
 #include <filesystem>
 #include <vector>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 
-#include "interfaces/plugin.h"
-#include "plumb/texture.h"
+#include "model/plugin.h"
+#include "plumb/model/texture.h"
 #include "textures/bitmap.h"
 
 #include <fmt/format.h>

@@ -3,7 +3,7 @@
 
 // A plane of squares in two alternating colours: what both kinds of checkerboard are made of.
 
-#include "plumb/color.h"
+#include "plumb/math/color.h"
 
 namespace plumb {
 

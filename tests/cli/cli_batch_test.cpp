@@ -3,7 +3,7 @@
 // renderer batch: verdicts, exit codes, what is rendered again, references and reports.
 
 #include "cli/small_scene.h"
-#include "plumb/image.h"
+#include "plumb/image/image.h"
 #include "support/catch.h"
 
 #include <pugixml.hpp>
@@ -13,8 +13,8 @@ using namespace plumb;
 namespace {
 
 // Renders of the small scene; "dark" is half as bright as its reference.
-struct BatchFolder : SceneFolder {
-    BatchFolder()
+struct BatchDirectory : SceneDirectory {
+    BatchDirectory()
     {
         std::string dark = small_scene();
         dark.replace(dark.find("20,20,18"), 8, "10,10,9");
@@ -47,112 +47,112 @@ std::size_t count_of(const std::string& text, const std::string& part)
 
 TEST_CASE("batch makes references and compares with them", "[cli][batch]")
 {
-    const BatchFolder folder;
-    const RunResult before = folder.batch(same);
+    const BatchDirectory directory;
+    const RunResult before = directory.batch(same);
     CHECK(before.exit_code == 1);
     CHECK_THAT(
         before.out,
         ContainsSubstring("suite.xml:2:47: error: there is no reference 'ref/scene.exr'; 'renderer batch "
                           "suite.xml --update' makes it\n"));
 
-    const RunResult update = folder.batch(same, {"--update"});
+    const RunResult update = directory.batch(same, {"--update"});
     INFO(update.out << update.err);
     CHECK(update.exit_code == 0);
     CHECK(update.out.starts_with("ref/scene.exr  made "));
     CHECK(update.out.ends_with("\n1 made\n"));
-    CHECK(read_image(folder / "ref/scene.exr", false).data_window() == PixelRect{0, 0, 16, 12});
-    CHECK(std::filesystem::exists(folder / "ref/scene.png"));
+    CHECK(read_image(directory / "ref/scene.exr", false).data_window() == PixelRect{0, 0, 16, 12});
+    CHECK(std::filesystem::exists(directory / "ref/scene.png"));
 
-    const RunResult after = folder.batch(same);
+    const RunResult after = directory.batch(same);
     CHECK(after.exit_code == 0);
     CHECK_THAT(after.out, ContainsSubstring("scene_64  passes     rmse "));
     CHECK(after.out.ends_with("\n1 passes; 1 up to date; reports: batch/suite/report.html\n"));
 
     // The reference is what the words of the report make.
-    CHECK(folder
+    CHECK(directory
               .run({"scene.xml", "--seed", "5", "--size", "16x12", "--spp", "64", "--quiet", "-o",
                     "by_hand.exr"})
               .exit_code == 0);
-    CHECK(
-        folder.run({"compare", "by_hand.exr", "ref/scene.exr"}).out.find("every pixel is the same in both") !=
-        std::string::npos);
+    CHECK(directory.run({"compare", "by_hand.exr", "ref/scene.exr"})
+              .out.find("every pixel is the same in both") != std::string::npos);
 }
 
 TEST_CASE("the exit code of batch is the worst of its verdicts", "[cli][batch]")
 {
-    const BatchFolder folder;
-    CHECK(folder.batch(same, {"--update"}).exit_code == 0);
+    const BatchDirectory directory;
+    CHECK(directory.batch(same, {"--update"}).exit_code == 0);
 
-    const RunResult undecided = folder.batch(same + few);
+    const RunResult undecided = directory.batch(same + few);
     CHECK(undecided.exit_code == 4);
     CHECK_THAT(undecided.out, ContainsSubstring("few_1     undecided  rmse "));
-    const RunResult differs = folder.batch(same + few + dark);
+    const RunResult differs = directory.batch(same + few + dark);
     CHECK(differs.exit_code == 3);
     CHECK_THAT(differs.out, ContainsSubstring("dark_64   differs    rmse "));
     CHECK_THAT(differs.out, ContainsSubstring("\n    it differs beyond the noise: p "));
     CHECK_THAT(differs.out, ContainsSubstring("1 passes, 1 differs, 1 undecided; 2 up to date"));
-    const RunResult error = folder.batch(same + few + dark + missing);
+    const RunResult error = directory.batch(same + few + dark + missing);
     CHECK(error.exit_code == 1);
     CHECK_THAT(error.out, ContainsSubstring("error: there is no scene file 'none.xml'\n"));
     CHECK_THAT(error.out, ContainsSubstring("1 passes, 1 differs, 1 undecided, 1 error; 3 up to date"));
     // A limit alone decides where that is asked for.
     const std::string limit =
         "<render scene=\"dark.xml\" spp=\"64\" reference=\"ref/scene.exr\" no-verdict=\"true\" max=\"";
-    CHECK(folder.batch(limit + "rmse=100\"/>").exit_code == 0);
-    const RunResult above = folder.batch(limit + "rmse=0.001\"/>");
+    CHECK(directory.batch(limit + "rmse=100\"/>").exit_code == 0);
+    const RunResult above = directory.batch(limit + "rmse=0.001\"/>");
     CHECK(above.exit_code == 3);
     CHECK_THAT(above.out, ContainsSubstring(" is above 0.001\n"));
 }
 
 TEST_CASE("a reference that cannot be compared is an error", "[cli][batch]")
 {
-    const BatchFolder folder;
-    CHECK(folder.run({"scene.xml", "--spp", "4", "--size", "16x9", "--quiet", "-o", "ref.exr"}).exit_code ==
-          0);
+    const BatchDirectory directory;
+    CHECK(
+        directory.run({"scene.xml", "--spp", "4", "--size", "16x9", "--quiet", "-o", "ref.exr"}).exit_code ==
+        0);
     const std::string entry = "<render scene=\"scene.xml\" spp=\"4\" reference=\"ref.exr\"/>";
-    const RunResult sizes = folder.batch(entry);
+    const RunResult sizes = directory.batch(entry);
     CHECK(sizes.exit_code == 1);
     CHECK_THAT(sizes.out,
                ContainsSubstring(
                    "error: cannot compare A, 'batch/suite/scene_4.exr', with B, 'ref.exr': the pictures "
                    "have different sizes: A is 16x12 pixels, B is 16x9 pixels\n"));
-    const std::string bytes = read_bytes(folder / "ref.exr");
-    folder.write("ref.exr", bytes.substr(0, bytes.size() / 2));
-    const RunResult cut = folder.batch(entry);
+    const std::string bytes = read_bytes(directory / "ref.exr");
+    directory.write("ref.exr", bytes.substr(0, bytes.size() / 2));
+    const RunResult cut = directory.batch(entry);
     CHECK(cut.exit_code == 1);
     CHECK_THAT(cut.out, ContainsSubstring("error: cannot read 'ref.exr'"));
     // The report is written all the same.
-    CHECK_THAT(folder.report("report.html"), ContainsSubstring("cannot read 'ref.exr'"));
+    CHECK_THAT(directory.report("report.html"), ContainsSubstring("cannot read 'ref.exr'"));
 }
 
 TEST_CASE("batch renders again what has changed, and nothing else", "[cli][batch]")
 {
-    const BatchFolder folder;
+    const BatchDirectory directory;
     const std::string entries =
         "<render scene=\"scene.xml\" spp=\"2\"/><render scene=\"dark.xml\" spp=\"2\"/>";
     // How many of the two were up to date.
     const auto up_to_date = [&](const Names& words = {}, const std::string& text = "") {
-        return count_of(folder.batch(text.empty() ? entries : text, words).out, "  up to date\n");
+        return count_of(directory.batch(text.empty() ? entries : text, words).out, "  up to date\n");
     };
     CHECK(up_to_date() == 0);
-    const std::string picture = read_bytes(folder / "batch/suite/scene_2.exr");
+    const std::string picture = read_bytes(directory / "batch/suite/scene_2.exr");
     CHECK(up_to_date() == 2);
     CHECK(up_to_date({"--force"}) == 0);
-    CHECK(read_bytes(folder / "batch/suite/scene_2.exr") == picture);
+    CHECK(read_bytes(directory / "batch/suite/scene_2.exr") == picture);
     CHECK(up_to_date({"--threads", "1"}) == 2); // changes no bit
 
     SECTION("a picture that was removed, cut or changed")
     {
-        std::filesystem::remove(folder / "batch/suite/scene_2.png");
+        std::filesystem::remove(directory / "batch/suite/scene_2.png");
         CHECK(up_to_date() == 1);
-        folder.write("batch/suite/scene_2.exr", picture.substr(0, 100));
+        directory.write("batch/suite/scene_2.exr", picture.substr(0, 100));
         CHECK(up_to_date() == 1);
-        CHECK(read_bytes(folder / "batch/suite/scene_2.exr") == picture);
+        CHECK(read_bytes(directory / "batch/suite/scene_2.exr") == picture);
         CHECK(up_to_date() == 2);
     }
     SECTION("a scene that was changed")
     {
-        folder.write("dark.xml", small_scene());
+        directory.write("dark.xml", small_scene());
         CHECK(up_to_date() == 1);
         CHECK(up_to_date() == 2);
     }
@@ -164,7 +164,7 @@ TEST_CASE("batch renders again what has changed, and nothing else", "[cli][batch
     }
     SECTION("a state that cannot be read")
     {
-        folder.write("batch/suite/state.txt", "nonsense\n");
+        directory.write("batch/suite/state.txt", "nonsense\n");
         CHECK(up_to_date() == 0);
         CHECK(up_to_date() == 2);
     }
@@ -172,93 +172,94 @@ TEST_CASE("batch renders again what has changed, and nothing else", "[cli][batch
 
 TEST_CASE("batch takes a part of a suite, and stops where it is told", "[cli][batch]")
 {
-    const BatchFolder folder;
+    const BatchDirectory directory;
     const std::string entries =
         "<render scene=\"scene.xml\" spp=\"1,16\"/>" + missing + "<render scene=\"dark.xml\" spp=\"1\"/>";
-    const RunResult part = folder.batch(entries, {"--filter", "scene"});
+    const RunResult part = directory.batch(entries, {"--filter", "scene"});
     CHECK(part.exit_code == 0);
     CHECK_THAT(part.out, ContainsSubstring("\n2 rendered; reports"));
-    CHECK_THAT(folder.batch(entries, {"--filter", "*_1"}).out,
+    CHECK_THAT(directory.batch(entries, {"--filter", "*_1"}).out,
                ContainsSubstring("\n2 rendered; 1 up to date"));
-    CHECK_THAT(folder.batch(entries, {"--filter", "s*_1"}).out,
+    CHECK_THAT(directory.batch(entries, {"--filter", "s*_1"}).out,
                ContainsSubstring("\n1 rendered; 1 up to date"));
-    const RunResult nothing = folder.batch(entries, {"--filter", "nothing"});
+    const RunResult nothing = directory.batch(entries, {"--filter", "nothing"});
     CHECK(nothing.exit_code == 1);
     CHECK(nothing.err ==
           "error: no picture of 'suite.xml' has a name like 'nothing'; the first is scene_1\n");
 
-    const RunResult fast = folder.batch(entries, {"--fail-fast", "--out", "elsewhere"});
+    const RunResult fast = directory.batch(entries, {"--fail-fast", "--out", "elsewhere"});
     CHECK(fast.exit_code == 1);
     CHECK_THAT(fast.out,
                ContainsSubstring("2 rendered, 1 error, 1 not run; reports: elsewhere/report.html\n"));
-    CHECK_FALSE(std::filesystem::exists(folder / "elsewhere/dark_1.exr"));
-    CHECK(std::filesystem::exists(folder / "elsewhere/scene_16.exr"));
-    CHECK(folder.batch(entries, {"--quiet", "--filter", "scene"}).out.empty());
+    CHECK_FALSE(std::filesystem::exists(directory / "elsewhere/dark_1.exr"));
+    CHECK(std::filesystem::exists(directory / "elsewhere/scene_16.exr"));
+    CHECK(directory.batch(entries, {"--quiet", "--filter", "scene"}).out.empty());
 }
 
 TEST_CASE("no batch replaces a scene or a reference", "[cli][batch]")
 {
-    const BatchFolder folder;
-    CHECK(folder.batch("<render scene=\"scene.xml\" spp=\"2\" reference=\"scene_2.exr\"/>", {"--update"})
+    const BatchDirectory directory;
+    CHECK(directory.batch("<render scene=\"scene.xml\" spp=\"2\" reference=\"scene_2.exr\"/>", {"--update"})
               .exit_code == 0);
-    const std::string reference = read_bytes(folder / "scene_2.exr");
-    const RunResult here = folder.batch(
+    const std::string reference = read_bytes(directory / "scene_2.exr");
+    const RunResult here = directory.batch(
         "<render scene=\"scene.xml\" spp=\"2\" seed=\"3\" reference=\"scene_2.exr\"/>", {"--out", "."});
     CHECK(here.exit_code == 1);
     CHECK_THAT(here.out,
                ContainsSubstring(
                    "error: cannot write './scene_2.exr': it is a scene or a reference of the suite\n"));
-    CHECK(read_bytes(folder / "scene_2.exr") == reference);
+    CHECK(read_bytes(directory / "scene_2.exr") == reference);
 
-    const std::string scene = read_bytes(folder / "scene.xml");
+    const std::string scene = read_bytes(directory / "scene.xml");
     const RunResult update =
-        folder.batch("<render scene=\"scene.xml\" spp=\"2\" reference=\"scene.xml\"/>", {"--update"});
+        directory.batch("<render scene=\"scene.xml\" spp=\"2\" reference=\"scene.xml\"/>", {"--update"});
     CHECK(update.exit_code == 1);
     CHECK_THAT(update.out,
                ContainsSubstring("error: cannot write 'scene.xml': it is a scene of the suite\n"));
-    CHECK(read_bytes(folder / "scene.xml") == scene);
+    CHECK(read_bytes(directory / "scene.xml") == scene);
 }
 
 TEST_CASE("entries that share a reference say how it is made", "[cli][batch]")
 {
-    const BatchFolder folder;
+    const BatchDirectory directory;
     const RunResult run =
-        folder.batch("<render scene=\"scene.xml\" spp=\"1, 4\" reference=\"ref.exr\"/>", {"--update"});
+        directory.batch("<render scene=\"scene.xml\" spp=\"1, 4\" reference=\"ref.exr\"/>", {"--update"});
     CHECK(run.exit_code == 1);
     CHECK(run.err.starts_with(
         "suite.xml:2:49: error: several entries share 'ref.exr'; say how the first of them, "
         "'scene_1', makes it: reference-spp=\"...\"\n"));
-    const RunResult none = folder.batch("<render scene=\"scene.xml\" spp=\"1\"/>", {"--update"});
+    const RunResult none = directory.batch("<render scene=\"scene.xml\" spp=\"1\"/>", {"--update"});
     CHECK(none.err == "error: no entry has a reference to make\n");
-    const RunResult shared = folder.batch(
+    const RunResult shared = directory.batch(
         "<render scene=\"scene.xml\" spp=\"2, 4\" reference=\"ref.exr\" reference-spp=\"8\"/>", {"--update"});
     CHECK(shared.exit_code == 0);
     CHECK(count_of(shared.out, "made") == 2); // the line and the sum
-    CHECK_THAT(folder.run({"info", "ref.exr"}).out, ContainsSubstring("--spp 8"));
+    CHECK_THAT(directory.run({"info", "ref.exr"}).out, ContainsSubstring("--spp 8"));
 }
 
 TEST_CASE("a scene's own sample count names its picture", "[cli][batch]")
 {
-    const BatchFolder folder;
+    const BatchDirectory directory;
     const RunResult run =
-        folder.batch("<render scene=\"scene.xml\"/><render scene=\"scene.xml\" spp=\"4\"/>");
+        directory.batch("<render scene=\"scene.xml\"/><render scene=\"scene.xml\" spp=\"4\"/>");
     CHECK(run.exit_code == 1);
     CHECK_THAT(run.out, ContainsSubstring(
                             "error: another entry writes 'scene_4.exr', too; give one of them another name"));
-    CHECK(std::filesystem::exists(folder / "batch/suite/scene_4.exr"));
+    CHECK(std::filesystem::exists(directory / "batch/suite/scene_4.exr"));
 }
 
 TEST_CASE("the reports of batch", "[cli][batch]")
 {
-    const BatchFolder folder;
-    folder.write("<&\"'>.xml", "<scene><camera type=\"</script>&amp;\"/></scene>");
-    CHECK(folder.batch(same, {"--update"}).exit_code == 0);
+    const BatchDirectory directory;
+    directory.write("<&\"'>.xml", "<scene><camera type=\"</script>&amp;\"/></scene>");
+    CHECK(directory.batch(same, {"--update"}).exit_code == 0);
     const std::string odd = "<render scene=\"&lt;&amp;&quot;'&gt;.xml\" spp=\"1\"/>";
-    CHECK(folder.batch(same + dark + odd + missing + few, {"--fail-fast", "--filter", "*_*"}).exit_code == 3);
-    CHECK(folder.batch(same + dark + odd).exit_code == 1);
+    CHECK(directory.batch(same + dark + odd + missing + few, {"--fail-fast", "--filter", "*_*"}).exit_code ==
+          3);
+    CHECK(directory.batch(same + dark + odd).exit_code == 1);
 
     pugi::xml_document junit;
-    REQUIRE(junit.load_string(folder.report("junit.xml").c_str()));
+    REQUIRE(junit.load_string(directory.report("junit.xml").c_str()));
     const pugi::xml_node suite = junit.child("testsuites").child("testsuite");
     CHECK(std::string(suite.attribute("name").value()) == "suite");
     CHECK(suite.attribute("tests").as_int() == 3);
@@ -274,17 +275,17 @@ TEST_CASE("the reports of batch", "[cli][batch]")
     const pugi::xml_node error = suite.find_child_by_attribute("name", "<&\"'>_1").child("error");
     CHECK_THAT(error.text().get(), ContainsSubstring("</script>"));
 
-    const std::string json = folder.report("report.json");
+    const std::string json = directory.report("report.json");
     for (const char* part : {"\"exit_code\": 1,", "\"name\": \"dark_64\",\n      \"verdict\": \"differs\"",
                              "\"picture\": \"batch/suite/scene_64.exr\"", "\"up_to_date\": true",
                              "\"rmse\": ", "\"finding\": \"different\""})
         CHECK_THAT(json, ContainsSubstring(part));
-    const std::string markdown = folder.report("summary.md");
+    const std::string markdown = directory.report("summary.md");
     CHECK_THAT(markdown, ContainsSubstring("1 passes, 1 differs, 1 error; 2 up to date in "));
     CHECK_THAT(markdown, ContainsSubstring("| dark\\_64 | **differs** | "));
 
     // One page, with all pictures in it and nothing to fetch.
-    const std::string page = folder.report("report.html");
+    const std::string page = directory.report("report.html");
     CHECK(page.starts_with("<!DOCTYPE html>\n"));
     CHECK(page.ends_with("</html>\n"));
     CHECK(count_of(page, "{{") == 0);
@@ -296,22 +297,22 @@ TEST_CASE("the reports of batch", "[cli][batch]")
           0);
     CHECK_THAT(page, ContainsSubstring("\\u003c/script>"));
     CHECK_THAT(page, ContainsSubstring("\"reference\": \"data-1\""));
-    CHECK(std::filesystem::exists(folder / "batch/suite/dark_64_diff.png"));
+    CHECK(std::filesystem::exists(directory / "batch/suite/dark_64_diff.png"));
 }
 
 TEST_CASE("batch says what it cannot write", "[cli][batch]")
 {
-    const BatchFolder folder;
-    folder.write("file", "");
-    const RunResult inside = folder.batch(same, {"--out", "file/deep"});
+    const BatchDirectory directory;
+    directory.write("file", "");
+    const RunResult inside = directory.batch(same, {"--out", "file/deep"});
     CHECK(inside.exit_code == 1);
-    CHECK(inside.err == "error: cannot make the folder 'file/deep': Not a directory\n");
-    std::filesystem::create_directories(folder / "taken/report.html");
-    const RunResult taken = folder.batch(same, {"--out", "taken"});
+    CHECK(inside.err == "error: cannot make the directory 'file/deep': Not a directory\n");
+    std::filesystem::create_directories(directory / "taken/report.html");
+    const RunResult taken = directory.batch(same, {"--out", "taken"});
     CHECK(taken.exit_code == 1);
     CHECK(taken.err == "error: cannot write 'taken/report.html': Is a directory\n");
-    CHECK(folder.run({"batch"}).err == "error: no suite given; 'renderer --help' shows how\n");
-    CHECK(folder.run({"batch", "suite.xml", "--spp", "4"}).err ==
+    CHECK(directory.run({"batch"}).err == "error: no suite given; 'renderer --help' shows how\n");
+    CHECK(directory.run({"batch", "suite.xml", "--spp", "4"}).err ==
           "error: option '--spp' does not go with batch\n");
-    CHECK_THAT(folder.run({"batch", "--help"}).out, ContainsSubstring("reference-spp"));
+    CHECK_THAT(directory.run({"batch", "--help"}).out, ContainsSubstring("reference-spp"));
 }

@@ -54,10 +54,10 @@ const std::string lamp = R"(<emitter type="area"><color name="radiance" value="1
 std::string doubts(const std::string& more, const std::string& obj = cube(false),
                    const std::string& integrator = "path_mis")
 {
-    const TempFolder folder;
-    folder.write("a.xml", scene(more, integrator));
-    folder.write("mesh.obj", obj);
-    const RunResult run = run_renderer({"check", "a.xml"}, folder.path());
+    const TempDirectory directory;
+    directory.write("a.xml", scene(more, integrator));
+    directory.write("mesh.obj", obj);
+    const RunResult run = run_renderer({"check", "a.xml"}, directory.path());
     INFO(run.err);
     const std::size_t memory = run.out.find("memory: ");
     REQUIRE(memory != std::string::npos);
@@ -74,9 +74,9 @@ TEST_CASE("a good scene leaves no doubt", "[cli][check]")
     CHECK(doubts(sky + mesh(glass)).empty());
     CHECK(doubts(mesh(lamp)).empty());
     CHECK(doubts(sky + R"(<shape type="sphere">)" + glass + "</shape>").empty());
-    const SceneFolder folder;
-    CHECK(folder.run({"check", "scene.xml", "--quiet"}).exit_code == 0);
-    CHECK(folder.files() == Names{"scene.xml"}); // nothing is rendered
+    const SceneDirectory directory;
+    CHECK(directory.run({"check", "scene.xml", "--quiet"}).exit_code == 0);
+    CHECK(directory.files() == Names{"scene.xml"}); // nothing is rendered
 }
 
 TEST_CASE("glass that is open or turned inside out is doubtful", "[cli][check]")
@@ -126,19 +126,19 @@ TEST_CASE("a camera inside a thing is doubtful, and so is a warning", "[cli][che
     CHECK(doubts(sun + R"(<shape type="sphere"><float name="radius" value="50"/></shape>)") ==
           "shape 'sphere' (a.xml:4): the camera is inside it\n" + black);
 
-    const SceneFolder folder;
-    folder.write("a.xml", scene(sun + mesh("")));
-    folder.write("mesh.obj", cube(false) + "f 1 2 2\n");
-    const RunResult run = folder.run({"check", "a.xml"});
+    const SceneDirectory directory;
+    directory.write("a.xml", scene(sun + mesh("")));
+    directory.write("mesh.obj", cube(false) + "f 1 2 2\n");
+    const RunResult run = directory.run({"check", "a.xml"});
     CHECK(run.exit_code == 3);
     CHECK_THAT(run.err, ContainsSubstring("warning: 1 triangle has no area and was left out"));
 }
 
 TEST_CASE("check tells errors as rendering does", "[cli][check]")
 {
-    const SceneFolder folder;
-    folder.write("bad.xml", scene(R"(<shape type="spere"/>)"));
-    const RunResult run = folder.run({"check", "bad.xml"});
+    const SceneDirectory directory;
+    directory.write("bad.xml", scene(R"(<shape type="spere"/>)"));
+    const RunResult run = directory.run({"check", "bad.xml"});
     CHECK(run.exit_code == 1);
     CHECK_THAT(run.err,
                ContainsSubstring("bad.xml:4:14: error: unknown shape 'spere'; did you mean 'sphere'?"));
@@ -153,10 +153,10 @@ TEST_CASE("a sun that lights nothing is warned of, and a black picture doubted",
         return R"(<emitter type="directional"><vector name="direction" value=")" + direction +
                R"("/></emitter>)";
     };
-    const TempFolder folder;
+    const TempDirectory directory;
     const auto check = [&](const std::string& body) {
-        folder.write("a.xml", scene(body));
-        return run_renderer({"check", "a.xml"}, folder.path());
+        directory.write("a.xml", scene(body));
+        return run_renderer({"check", "a.xml"}, directory.path());
     };
     CHECK(check(floor + sun_along("0,-1,0.2")).exit_code == 0);
 
@@ -168,13 +168,13 @@ TEST_CASE("a sun that lights nothing is warned of, and a black picture doubted",
                           "1, 0), for 'direction' is where it goes"));
     CHECK_THAT(idle.out,
                ContainsSubstring("though there is a light, all of 4096 paths through the picture are black"));
-    const RunResult rendered = run_renderer({"a.xml", "-o", "a.exr", "--spp", "1"}, folder.path());
+    const RunResult rendered = run_renderer({"a.xml", "-o", "a.exr", "--spp", "1"}, directory.path());
     CHECK(rendered.exit_code == 0);
     CHECK_THAT(rendered.err, ContainsSubstring("warning: this light meets the front of no surface") &&
                                  ContainsSubstring("warning: the picture is black, though there is a light; "
                                                    "'renderer check a.xml' may say why"));
     // For mcgill it comes from there.
-    CHECK(run_renderer({"check", "a.xml", "--dialect", "mcgill"}, folder.path()).exit_code == 0);
+    CHECK(run_renderer({"check", "a.xml", "--dialect", "mcgill"}, directory.path()).exit_code == 0);
 
     // A roof between the sun and everything else.
     const std::string roof =
@@ -186,8 +186,8 @@ TEST_CASE("a sun that lights nothing is warned of, and a black picture doubted",
     CHECK_THAT(two.err, ContainsSubstring("a.xml:6:1: warning: this light"));
     CHECK(two.err.find("a.xml:5:") == std::string::npos);
     // Integrators that look at no lamp.
-    folder.write("a.xml", scene(sun_along("0,1,0"), "normals"));
-    CHECK(run_renderer({"check", "a.xml"}, folder.path()).exit_code == 0);
+    directory.write("a.xml", scene(sun_along("0,1,0"), "normals"));
+    CHECK(run_renderer({"check", "a.xml"}, directory.path()).exit_code == 0);
     // Lamps behind the camera's back wall: nothing is lit.
     const RunResult away =
         check(R"(<emitter type="pointlight"><point name="position" value="0,0,-90"/></emitter>)" + floor);

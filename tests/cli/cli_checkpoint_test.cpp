@@ -4,8 +4,8 @@
 
 #include "cli/picture_header.h"
 #include "cli/small_scene.h"
-#include "plumb/image.h"
-#include "plumb/state_file.h"
+#include "plumb/image/image.h"
+#include "plumb/render/state_file.h"
 #include "support/catch.h"
 
 #include <chrono>
@@ -26,76 +26,77 @@ bool is_there(const std::filesystem::path& path)
 
 TEST_CASE("a rendering that is gone on from gives the same file", "[cli][checkpoint]")
 {
-    const SceneFolder folder;
-    REQUIRE(folder.run({"scene.xml", "-o", "whole.exr", "--spp", "50"}).exit_code == 0);
-    REQUIRE(folder.run({"scene.xml", "-o", "a.exr", "--spp", "20", "--checkpoint", "c.exr"}).exit_code == 0);
+    const SceneDirectory directory;
+    REQUIRE(directory.run({"scene.xml", "-o", "whole.exr", "--spp", "50"}).exit_code == 0);
+    REQUIRE(directory.run({"scene.xml", "-o", "a.exr", "--spp", "20", "--checkpoint", "c.exr"}).exit_code ==
+            0);
     const RunResult more =
-        folder.run({"scene.xml", "-o", "a.exr", "--spp", "50", "--checkpoint", "c.exr", "--resume"});
+        directory.run({"scene.xml", "-o", "a.exr", "--spp", "50", "--checkpoint", "c.exr", "--resume"});
     CHECK(more.exit_code == 0);
     CHECK_THAT(more.err, ContainsSubstring("going on from 'c.exr', which has 34.5 k samples\n"));
-    CHECK(read_bytes(folder / "a.exr") == read_bytes(folder / "whole.exr"));
-    CHECK(is_there(folder / "c.previous.exr"));
+    CHECK(read_bytes(directory / "a.exr") == read_bytes(directory / "whole.exr"));
+    CHECK(is_there(directory / "c.previous.exr"));
 
     SECTION("from nothing it starts, and says so")
     {
         const RunResult fresh =
-            folder.run({"scene.xml", "-o", "b.exr", "--spp", "50", "--checkpoint", "d.exr", "--resume"});
+            directory.run({"scene.xml", "-o", "b.exr", "--spp", "50", "--checkpoint", "d.exr", "--resume"});
         CHECK(fresh.exit_code == 0);
         CHECK_THAT(fresh.err, ContainsSubstring("there is no 'd.exr' yet: starting with the first sample\n"));
-        CHECK(read_bytes(folder / "b.exr") == read_bytes(folder / "whole.exr"));
+        CHECK(read_bytes(directory / "b.exr") == read_bytes(directory / "whole.exr"));
     }
     SECTION("a checkpoint is not written over by a new rendering")
     {
         const RunResult other =
-            folder.run({"scene.xml", "-o", "b.exr", "--spp", "60", "--checkpoint", "c.exr"});
+            directory.run({"scene.xml", "-o", "b.exr", "--spp", "60", "--checkpoint", "c.exr"});
         CHECK(other.exit_code == 1);
         CHECK(other.err == "error: 'c.exr' is there already: go on from it with --resume, or remove it\n");
     }
     SECTION("nor is one of which only the previous generation is left")
     {
-        std::filesystem::remove(folder / "c.exr");
+        std::filesystem::remove(directory / "c.exr");
         const RunResult other =
-            folder.run({"scene.xml", "-o", "b.exr", "--spp", "60", "--checkpoint", "c.exr"});
+            directory.run({"scene.xml", "-o", "b.exr", "--spp", "60", "--checkpoint", "c.exr"});
         CHECK(other.exit_code == 1);
         CHECK(other.err ==
               "error: 'c.previous.exr' is there already: go on from it with --resume, or remove it\n");
-        CHECK(folder.run({"scene.xml", "-o", "b.exr", "--spp", "50", "--checkpoint", "c.exr", "--resume"})
+        CHECK(directory.run({"scene.xml", "-o", "b.exr", "--spp", "50", "--checkpoint", "c.exr", "--resume"})
                   .exit_code == 0);
-        CHECK(read_bytes(folder / "b.exr") == read_bytes(folder / "whole.exr"));
+        CHECK(read_bytes(directory / "b.exr") == read_bytes(directory / "whole.exr"));
     }
     SECTION("a damaged generation is said to be so, and the previous one taken")
     {
-        const std::string good = read_bytes(folder / "c.exr");
-        folder.write("c.exr", good.substr(0, good.size() / 2));
+        const std::string good = read_bytes(directory / "c.exr");
+        directory.write("c.exr", good.substr(0, good.size() / 2));
         const RunResult second =
-            folder.run({"scene.xml", "-o", "a.exr", "--spp", "50", "--checkpoint", "c.exr", "--resume"});
+            directory.run({"scene.xml", "-o", "a.exr", "--spp", "50", "--checkpoint", "c.exr", "--resume"});
         CHECK(second.exit_code == 0);
         CHECK_THAT(second.err, ContainsSubstring("warning: cannot go on from 'c.exr': "));
         CHECK_THAT(second.err, ContainsSubstring("; going on from 'c.previous.exr'\n"));
-        CHECK(read_bytes(folder / "a.exr") == read_bytes(folder / "whole.exr"));
+        CHECK(read_bytes(directory / "a.exr") == read_bytes(directory / "whole.exr"));
 
-        folder.write("c.exr", "nothing");
-        folder.write("c.previous.exr", "nothing");
+        directory.write("c.exr", "nothing");
+        directory.write("c.previous.exr", "nothing");
         const RunResult third =
-            folder.run({"scene.xml", "-o", "a.exr", "--spp", "50", "--checkpoint", "c.exr", "--resume"});
+            directory.run({"scene.xml", "-o", "a.exr", "--spp", "50", "--checkpoint", "c.exr", "--resume"});
         CHECK(third.exit_code == 1);
         CHECK_THAT(third.err, ContainsSubstring("error: cannot go on from 'c.exr': "));
         CHECK_THAT(third.err, ContainsSubstring("; nor its previous generation: "));
-        CHECK(read_bytes(folder / "c.exr") == "nothing");
+        CHECK(read_bytes(directory / "c.exr") == "nothing");
     }
 }
 
 TEST_CASE("a checkpoint of another rendering is refused with the reason", "[cli][checkpoint]")
 {
-    const SceneFolder folder;
-    REQUIRE(folder.run({"scene.xml", "-o", "a.exr", "--checkpoint", "c.exr"}).exit_code == 0);
-    const std::string before = read_bytes(folder / "c.exr");
+    const SceneDirectory directory;
+    REQUIRE(directory.run({"scene.xml", "-o", "a.exr", "--checkpoint", "c.exr"}).exit_code == 0);
+    const std::string before = read_bytes(directory / "c.exr");
     const auto refusal = [&](Names words) {
         words.insert(words.end(), {"--checkpoint", "c.exr", "--resume", "-o", "b.exr", "--quiet"});
-        const RunResult result = folder.run(words);
+        const RunResult result = directory.run(words);
         CHECK(result.exit_code == 1);
         CHECK(result.out.empty());
-        CHECK(read_bytes(folder / "c.exr") == before);
+        CHECK(read_bytes(directory / "c.exr") == before);
         return result.err;
     };
     CHECK(refusal({"scene.xml", "--seed", "3"}) ==
@@ -110,28 +111,29 @@ TEST_CASE("a checkpoint of another rendering is refused with the reason", "[cli]
           "error: cannot go on from 'c.exr': it has the pixels 0,0,48,36, not 0,0,8,8\n");
     CHECK(refusal({"scene.xml", "--spp", "2"}) ==
           "error: cannot go on from 'c.exr': it has samples that are not asked for: 0,0,48,36:2-4\n");
-    folder.write("scene.xml", small_scene() + "<!-- edited -->");
+    directory.write("scene.xml", small_scene() + "<!-- edited -->");
     CHECK(refusal({"scene.xml"}) == "error: cannot go on from 'c.exr': 'scene.xml' has changed\n");
-    folder.write("scene.xml", small_scene());
-    std::filesystem::copy_file(folder / "a.exr", folder / "c.exr",
+    directory.write("scene.xml", small_scene());
+    std::filesystem::copy_file(directory / "a.exr", directory / "c.exr",
                                std::filesystem::copy_options::overwrite_existing);
-    CHECK_THAT(folder.run({"scene.xml", "-o", "b.exr", "--checkpoint", "c.exr", "--resume"}).err,
+    CHECK_THAT(directory.run({"scene.xml", "-o", "b.exr", "--checkpoint", "c.exr", "--resume"}).err,
                ContainsSubstring("cannot go on from 'c.exr': it is no checkpoint and no part of a picture"));
 }
 
 TEST_CASE("a signal ends a rendering with picture and checkpoint", "[cli][checkpoint]")
 {
     const int signal = GENERATE(SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1, SIGXCPU);
-    const SceneFolder folder;
-    REQUIRE(folder.run({"scene.xml", "-o", "whole.exr", "--spp", "40000", "--crop", "20,16,4,4"}).exit_code ==
-            0);
+    const SceneDirectory directory;
+    REQUIRE(
+        directory.run({"scene.xml", "-o", "whole.exr", "--spp", "40000", "--crop", "20,16,4,4"}).exit_code ==
+        0);
     const Names words = {"scene.xml", "-o",        "a.exr",        "--spp", "40000",
                          "--crop",    "20,16,4,4", "--checkpoint", "c.exr"};
     // The first checkpoint shows that rendering has begun.
     Names often = words;
     often.insert(often.end(), {"--checkpoint-every", "0.01s"});
-    const RunResult stopped = run_renderer(often, folder.path(), "", [&](pid_t process) {
-        for (int i = 0; i < 3000 && !is_there(folder / "c.exr"); ++i)
+    const RunResult stopped = run_renderer(often, directory.path(), "", [&](pid_t process) {
+        for (int i = 0; i < 3000 && !is_there(directory / "c.exr"); ++i)
             std::this_thread::sleep_for(std::chrono::milliseconds(10));
         kill(process, signal);
     });
@@ -140,27 +142,27 @@ TEST_CASE("a signal ends a rendering with picture and checkpoint", "[cli][checkp
         stopped.err,
         ContainsSubstring("samples per pixel; to go on:\n    renderer scene.xml -o a.exr --spp "
                           "40000 --crop 20,16,4,4 --checkpoint c.exr --checkpoint-every 0.01s --resume\n"));
-    CHECK(text(header(folder / "a.exr"), "plumb:stop") == "it was interrupted");
-    CHECK(text(header(folder / "a.exr"), "compression") == "rle"); // quickly
-    REQUIRE(folder.run({"rerun", "a.exr", "-o", "same.exr"}).exit_code == 0);
-    CHECK(read_bytes(folder / "same.exr") == read_bytes(folder / "a.exr"));
+    CHECK(text(header(directory / "a.exr"), "plumb:stop") == "it was interrupted");
+    CHECK(text(header(directory / "a.exr"), "compression") == "rle"); // quickly
+    REQUIRE(directory.run({"rerun", "a.exr", "-o", "same.exr"}).exit_code == 0);
+    CHECK(read_bytes(directory / "same.exr") == read_bytes(directory / "a.exr"));
     Names again = words;
     again.emplace_back("--resume");
-    REQUIRE(folder.run(again).exit_code == 0);
-    CHECK(read_bytes(folder / "a.exr") == read_bytes(folder / "whole.exr"));
+    REQUIRE(directory.run(again).exit_code == 0);
+    CHECK(read_bytes(directory / "a.exr") == read_bytes(directory / "whole.exr"));
 }
 
 TEST_CASE("a rendering ends when its noise is low enough, wherever it was interrupted", "[cli][checkpoint]")
 {
-    const SceneFolder folder;
+    const SceneDirectory directory;
     const Names words = {"scene.xml", "--size", "16x12", "--target-error", "0.2"};
     const auto with = [&](const Names& more) {
         Names all = words;
         all.insert(all.end(), more.begin(), more.end());
         return all;
     };
-    REQUIRE(folder.run(with({"-o", "whole.exr"})).exit_code == 0);
-    const auto found = header(folder / "whole.exr");
+    REQUIRE(directory.run(with({"-o", "whole.exr"})).exit_code == 0);
+    const auto found = header(directory / "whole.exr");
     const int samples = integer(found, "plumb:samplesPerPixel");
     CHECK(samples >= 16);
     CHECK(samples % 16 == 0);
@@ -168,60 +170,61 @@ TEST_CASE("a rendering ends when its noise is low enough, wherever it was interr
     CHECK(text(found, "plumb:biases") == "it stopped when its own noise was below 0.2");
 
     REQUIRE(
-        folder.run({"scene.xml", "--size", "16x12", "--spp", "21", "-o", "a.exr", "--checkpoint", "c.exr"})
+        directory.run({"scene.xml", "--size", "16x12", "--spp", "21", "-o", "a.exr", "--checkpoint", "c.exr"})
             .exit_code == 0);
-    REQUIRE(folder.run(with({"-o", "a.exr", "--checkpoint", "c.exr", "--resume"})).exit_code == 0);
-    CHECK(read_bytes(folder / "a.exr") == read_bytes(folder / "whole.exr"));
-    REQUIRE(folder.run({"rerun", "whole.exr", "-o", "again.exr"}).exit_code == 0);
-    CHECK(read_bytes(folder / "again.exr") == read_bytes(folder / "whole.exr"));
+    REQUIRE(directory.run(with({"-o", "a.exr", "--checkpoint", "c.exr", "--resume"})).exit_code == 0);
+    CHECK(read_bytes(directory / "a.exr") == read_bytes(directory / "whole.exr"));
+    REQUIRE(directory.run({"rerun", "whole.exr", "-o", "again.exr"}).exit_code == 0);
+    CHECK(read_bytes(directory / "again.exr") == read_bytes(directory / "whole.exr"));
 }
 
 TEST_CASE("a time limit is kept, named in the ledger, and can be rendered again", "[cli][checkpoint]")
 {
-    const SceneFolder folder;
-    const RunResult limited = folder.run({"scene.xml", "-o", "a.exr", "--time", "0.3"});
+    const SceneDirectory directory;
+    const RunResult limited = directory.run({"scene.xml", "-o", "a.exr", "--time", "0.3"});
     REQUIRE(limited.exit_code == 0);
-    const auto found = header(folder / "a.exr");
+    const auto found = header(directory / "a.exr");
     CHECK(text(found, "plumb:biases") == "it stopped at the time limit of 0.300 s");
     CHECK(integer(found, "plumb:samplesPerPixel") >= 1);
-    REQUIRE(folder.run({"rerun", "a.exr", "-o", "b.exr"}).exit_code == 0);
-    CHECK(read_bytes(folder / "a.exr") == read_bytes(folder / "b.exr"));
+    REQUIRE(directory.run({"rerun", "a.exr", "-o", "b.exr"}).exit_code == 0);
+    CHECK(read_bytes(directory / "a.exr") == read_bytes(directory / "b.exr"));
     // The number of samples is a limit, too.
-    REQUIRE(folder.run({"scene.xml", "-o", "c.exr", "--time", "1h", "--spp", "3"}).exit_code == 0);
-    CHECK(integer(header(folder / "c.exr"), "plumb:samplesPerPixel") == 3);
-    CHECK(integer(header(folder / "c.exr"), "plumb:biased") == 0);
+    REQUIRE(directory.run({"scene.xml", "-o", "c.exr", "--time", "1h", "--spp", "3"}).exit_code == 0);
+    CHECK(integer(header(directory / "c.exr"), "plumb:samplesPerPixel") == 3);
+    CHECK(integer(header(directory / "c.exr"), "plumb:biased") == 0);
 }
 
 TEST_CASE("parts make the picture, whatever the order and the grouping", "[cli][merge]")
 {
-    const SceneFolder folder;
+    const SceneDirectory directory;
     const std::string by = GENERATE("tiles", "samples");
-    REQUIRE(folder.run({"scene.xml", "-o", "whole.exr", "--spp", "9"}).exit_code == 0);
+    REQUIRE(directory.run({"scene.xml", "-o", "whole.exr", "--spp", "9"}).exit_code == 0);
     for (const std::string part : {"1", "2", "3", "4"})
-        REQUIRE(folder
+        REQUIRE(directory
                     .run({"scene.xml", "--spp", "9", "--part", part + "/4", "--part-by", by, "-o",
                           "p" + part + ".exr"})
                     .exit_code == 0);
-    REQUIRE(folder.run({"merge", "p3.exr", "p1.exr", "p4.exr", "p2.exr", "-o", "a.exr"}).exit_code == 0);
-    CHECK(read_bytes(folder / "a.exr") == read_bytes(folder / "whole.exr"));
-    REQUIRE(folder.run({"merge", "p3.exr", "p1.exr", "--checkpoint", "p13.exr"}).exit_code == 0);
-    REQUIRE(folder.run({"merge", "p2.exr", "p13.exr", "--checkpoint", "p123.exr"}).exit_code == 0);
-    REQUIRE(folder.run({"merge", "p4.exr", "p123.exr", "-o", "b.exr", "--checkpoint", "all.exr"}).exit_code ==
-            0);
-    CHECK(read_bytes(folder / "b.exr") == read_bytes(folder / "whole.exr"));
+    REQUIRE(directory.run({"merge", "p3.exr", "p1.exr", "p4.exr", "p2.exr", "-o", "a.exr"}).exit_code == 0);
+    CHECK(read_bytes(directory / "a.exr") == read_bytes(directory / "whole.exr"));
+    REQUIRE(directory.run({"merge", "p3.exr", "p1.exr", "--checkpoint", "p13.exr"}).exit_code == 0);
+    REQUIRE(directory.run({"merge", "p2.exr", "p13.exr", "--checkpoint", "p123.exr"}).exit_code == 0);
+    REQUIRE(
+        directory.run({"merge", "p4.exr", "p123.exr", "-o", "b.exr", "--checkpoint", "all.exr"}).exit_code ==
+        0);
+    CHECK(read_bytes(directory / "b.exr") == read_bytes(directory / "whole.exr"));
 
     // The whole can be gone on from.
-    REQUIRE(folder.run({"scene.xml", "-o", "whole.exr", "--spp", "12"}).exit_code == 0);
-    REQUIRE(folder.run({"scene.xml", "-o", "c.exr", "--spp", "12", "--checkpoint", "all.exr", "--resume"})
+    REQUIRE(directory.run({"scene.xml", "-o", "whole.exr", "--spp", "12"}).exit_code == 0);
+    REQUIRE(directory.run({"scene.xml", "-o", "c.exr", "--spp", "12", "--checkpoint", "all.exr", "--resume"})
                 .exit_code == 0);
-    CHECK(read_bytes(folder / "c.exr") == read_bytes(folder / "whole.exr"));
+    CHECK(read_bytes(directory / "c.exr") == read_bytes(directory / "whole.exr"));
 
     SECTION("overlaps and holes are refused by name")
     {
         const auto refusal = [&](const Names& words) {
-            const RunResult result = folder.run(words);
+            const RunResult result = directory.run(words);
             CHECK(result.exit_code == 1);
-            CHECK_FALSE(is_there(folder / "x.exr"));
+            CHECK_FALSE(is_there(directory / "x.exr"));
             return result.err;
         };
         CHECK_THAT(refusal({"merge", "p1.exr", "p13.exr", "p2.exr", "-o", "x.exr"}),
@@ -231,11 +234,12 @@ TEST_CASE("parts make the picture, whatever the order and the grouping", "[cli][
                                      "of them at 0,0,"));
         CHECK_THAT(refusal({"merge", "p13.exr", "p4.exr", "-o", "x.exr"}),
                    ContainsSubstring("samples are missing (part 2/4 by " + by + "), the first of them at "));
-        REQUIRE(folder.run({"scene.xml", "--spp", "9", "--part", "4/4", "--seed", "2", "-o", "other.exr"})
+        REQUIRE(directory.run({"scene.xml", "--spp", "9", "--part", "4/4", "--seed", "2", "-o", "other.exr"})
                     .exit_code == 0);
         CHECK(refusal({"merge", "p123.exr", "other.exr", "-o", "x.exr"}) ==
               "error: 'p123.exr' and 'other.exr' are not of one picture: the seed was 0 and is 2\n");
-        REQUIRE(folder.run({"scene.xml", "--spp", "10", "--part", "4/4", "-o", "longer.exr"}).exit_code == 0);
+        REQUIRE(directory.run({"scene.xml", "--spp", "10", "--part", "4/4", "-o", "longer.exr"}).exit_code ==
+                0);
         CHECK(refusal({"merge", "p123.exr", "longer.exr", "-o", "x.exr"}) ==
               "error: 'p123.exr' and 'longer.exr' are not of one picture: one is of 9 samples per pixel, the "
               "other "
@@ -247,10 +251,11 @@ TEST_CASE("parts make the picture, whatever the order and the grouping", "[cli][
     }
     SECTION("a picture with holes says so")
     {
-        const RunResult result = folder.run({"merge", "p13.exr", "p4.exr", "-o", "x.exr", "--allow-missing"});
+        const RunResult result =
+            directory.run({"merge", "p13.exr", "p4.exr", "-o", "x.exr", "--allow-missing"});
         CHECK(result.exit_code == 0);
         CHECK_THAT(result.err, ContainsSubstring("warning: "));
-        const auto found = header(folder / "x.exr");
+        const auto found = header(directory / "x.exr");
         CHECK(found.count("plumb:samplesTaken") == 1);
         CHECK(integer(found, "plumb:biased") == (by == "tiles" ? 1 : 0));
         if (by == "tiles") CHECK(text(found, "plumb:biases") == "some pixels have no samples and are black");
@@ -259,9 +264,9 @@ TEST_CASE("parts make the picture, whatever the order and the grouping", "[cli][
 
 TEST_CASE("what does not go with checkpoints and parts", "[cli][merge]")
 {
-    const SceneFolder folder;
+    const SceneDirectory directory;
     const auto usage = [&](const Names& words) {
-        const RunResult result = folder.run(words);
+        const RunResult result = directory.run(words);
         CHECK(result.exit_code == 2);
         return result.err;
     };
@@ -286,31 +291,31 @@ TEST_CASE("what does not go with checkpoints and parts", "[cli][merge]")
 
 TEST_CASE("work from before the scene language changed is neither gone on from nor merged", "[cli][merge]")
 {
-    const SceneFolder folder;
-    REQUIRE(folder.run({"scene.xml", "-o", "a.exr", "--checkpoint", "c.exr", "--quiet"}).exit_code == 0);
-    StateFile file = read_state(folder / "c.exr");
+    const SceneDirectory directory;
+    REQUIRE(directory.run({"scene.xml", "-o", "a.exr", "--checkpoint", "c.exr", "--quiet"}).exit_code == 0);
+    StateFile file = read_state(directory / "c.exr");
     std::erase_if(file.header, [](const auto& entry) { return entry.first == "plumb:language"; });
     const std::vector<unsigned char> bytes = encode_state(file.state, file.resolution, file.header);
-    folder.write("c.exr", {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    directory.write("c.exr", {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     const RunResult resumed =
-        folder.run({"scene.xml", "-o", "b.exr", "--checkpoint", "c.exr", "--resume", "--quiet"});
+        directory.run({"scene.xml", "-o", "b.exr", "--checkpoint", "c.exr", "--resume", "--quiet"});
     CHECK(resumed.exit_code == 1);
     CHECK(resumed.err ==
           "error: cannot go on from 'c.exr': the version of the scene language was 1 and is 2\n");
-    const RunResult merged = folder.run({"merge", "c.exr", "-o", "b.exr", "--quiet"});
+    const RunResult merged = directory.run({"merge", "c.exr", "-o", "b.exr", "--quiet"});
     CHECK(merged.exit_code == 1);
     CHECK_THAT(merged.err, ContainsSubstring("'c.exr' was made with version 1 of the scene language") &&
                                ContainsSubstring("directional lights"));
-    CHECK_FALSE(std::filesystem::exists(folder / "b.exr"));
+    CHECK_FALSE(std::filesystem::exists(directory / "b.exr"));
 }
 
 namespace {
 
 // Sends the signals one after the other to a rendering that has begun, of a scene that takes long.
-RunResult run_and_signal(const SceneFolder& folder, Names words, const std::vector<int>& signals)
+RunResult run_and_signal(const SceneDirectory& directory, Names words, const std::vector<int>& signals)
 {
-    return run_program(words, folder.path(), "", [&](pid_t process) {
-        for (int i = 0; i < 3000 && !is_there(folder / "c.exr"); ++i)
+    return run_program(words, directory.path(), "", [&](pid_t process) {
+        for (int i = 0; i < 3000 && !is_there(directory / "c.exr"); ++i)
             std::this_thread::sleep_for(std::chrono::milliseconds(10));
         for (const int signal : signals) {
             kill(process, signal);
@@ -323,7 +328,7 @@ RunResult run_and_signal(const SceneFolder& folder, Names words, const std::vect
 
 TEST_CASE("signals that come in series do not lose the last checkpoint", "[cli][checkpoint]")
 {
-    const SceneFolder folder;
+    const SceneDirectory directory;
     const Names words = {PLUMB_RENDERER,
                          "scene.xml",
                          "-o",
@@ -337,20 +342,20 @@ TEST_CASE("signals that come in series do not lose the last checkpoint", "[cli][
                          "--checkpoint-every",
                          "0.01s"};
     // The shell and the terminal both tell of a hang-up; SIGXCPU comes every second.
-    const RunResult stopped = run_and_signal(folder, words, {SIGHUP, SIGHUP, SIGXCPU, SIGUSR1});
+    const RunResult stopped = run_and_signal(directory, words, {SIGHUP, SIGHUP, SIGXCPU, SIGUSR1});
     // If they wait together, on a busy machine, any thread may take any of them first.
     const std::set<int> signals = {SIGHUP, SIGXCPU, SIGUSR1};
     CHECK(signals.count(stopped.exit_code - 128) == 1);
     CHECK_THAT(stopped.err, ContainsSubstring("; to go on:"));
-    CHECK(is_there(folder / "a.exr"));
+    CHECK(is_there(directory / "a.exr"));
 }
 
 TEST_CASE("a signal that nohup ignores stays ignored", "[cli][checkpoint]")
 {
-    const SceneFolder folder;
+    const SceneDirectory directory;
     const Names words = {"/bin/sh", "-c",
                          "trap '' HUP; exec \"$0\" scene.xml -o a.exr --spp 400000 --crop 20,16,4,4 "
                          "--checkpoint c.exr --checkpoint-every 0.01s",
                          PLUMB_RENDERER};
-    CHECK(run_and_signal(folder, words, {SIGHUP, SIGTERM}).exit_code == 128 + SIGTERM);
+    CHECK(run_and_signal(directory, words, {SIGHUP, SIGTERM}).exit_code == 128 + SIGTERM);
 }

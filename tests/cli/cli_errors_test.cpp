@@ -9,9 +9,9 @@ using namespace plumb;
 
 TEST_CASE("a wrong command line exits with 2 and says why", "[cli][errors]")
 {
-    const SceneFolder folder;
+    const SceneDirectory directory;
     const auto complaint = [&](const Names& words) {
-        const RunResult result = folder.run(words);
+        const RunResult result = directory.run(words);
         CHECK(result.exit_code == 2);
         CHECK(result.out.empty());
         return result.err;
@@ -24,22 +24,22 @@ TEST_CASE("a wrong command line exits with 2 and says why", "[cli][errors]")
           "error: --threads must be an integer from 1 to 1024, not '0'\n");
     CHECK(complaint({"scene.xml", "-o", "a.exr", "-o", "a.exr"}) ==
           "error: 'a.exr' is to be written twice\n");
-    const std::string absolute = (folder / "a.exr").string();
+    const std::string absolute = (directory / "a.exr").string();
     CHECK(complaint({"scene.xml", "-o", "a.exr", "-o", absolute}) ==
           "error: '" + absolute + "' is to be written twice\n");
     CHECK(complaint({"types", "difuse"}) == "error: unknown type 'difuse'; did you mean 'diffuse'?\n");
-    CHECK(folder.files() == Names{"scene.xml"});
+    CHECK(directory.files() == Names{"scene.xml"});
 }
 
 TEST_CASE("a wrong scene exits with 1, says where, and writes nothing", "[cli][errors]")
 {
-    const SceneFolder folder;
+    const SceneDirectory directory;
     const auto complaint = [&](const Names& words) {
-        const Names before = folder.files();
-        const RunResult result = folder.run(words);
+        const Names before = directory.files();
+        const RunResult result = directory.run(words);
         CHECK(result.exit_code == 1);
         CHECK(result.out.empty());
-        CHECK(folder.files() == before);
+        CHECK(directory.files() == before);
         return result.err;
     };
     CHECK(complaint({"none.xml"}) == "error: there is no scene file 'none.xml'\n");
@@ -50,41 +50,42 @@ TEST_CASE("a wrong scene exits with 1, says where, and writes nothing", "[cli][e
     CHECK_THAT(complaint({"scene.xml", "--integrator", "photonmapper"}),
                ContainsSubstring("integrator 'photonmapper' is not supported; use 'path_mis'"));
 
-    folder.write("bad.xml",
-                 small_scene(R"(<integrator type="path_mis"><float name="rrDeph" value="3"/></integrator>)"));
+    directory.write(
+        "bad.xml",
+        small_scene(R"(<integrator type="path_mis"><float name="rrDeph" value="3"/></integrator>)"));
     const std::string error = complaint({"bad.xml", "-o", "bad.exr", "-o", "bad.png", "--json", "bad.json"});
     CHECK(error == "bad.xml:2:44: error: unknown parameter 'rrDeph' for integrator 'path_mis'; did you mean "
                    "'rrDepth'?\n"
                    "  <integrator type=\"path_mis\"><float name=\"rrDeph\" value=\"3\"/></integrator>\n"
                    "                                           ^~~~~~\n");
-    CHECK(folder.run({"bad.xml", "--lenient", "-o", "lenient.exr"}).exit_code == 0);
+    CHECK(directory.run({"bad.xml", "--lenient", "-o", "lenient.exr"}).exit_code == 0);
 }
 
 TEST_CASE("what a scene is read from is not overwritten", "[cli][errors]")
 {
-    const SceneFolder folder;
-    folder.write("part.xml", small_scene());
-    folder.write("main.xml", "<scene dialect=\"plumb\"><include filename=\"part.xml\"/></scene>");
-    const Names before = folder.files();
-    const std::string part = read_bytes(folder / "part.xml");
-    const RunResult result = folder.run({"main.xml", "-o", "a.exr", "--json", "./part.xml"});
+    const SceneDirectory directory;
+    directory.write("part.xml", small_scene());
+    directory.write("main.xml", "<scene dialect=\"plumb\"><include filename=\"part.xml\"/></scene>");
+    const Names before = directory.files();
+    const std::string part = read_bytes(directory / "part.xml");
+    const RunResult result = directory.run({"main.xml", "-o", "a.exr", "--json", "./part.xml"});
     CHECK(result.exit_code == 1);
     CHECK_THAT(result.err, ContainsSubstring("error: cannot write './part.xml': the scene reads this file"));
-    CHECK(read_bytes(folder / "part.xml") == part);
-    CHECK(folder.files() == before);
+    CHECK(read_bytes(directory / "part.xml") == part);
+    CHECK(directory.files() == before);
 }
 
 TEST_CASE("an output that cannot be written is found out before rendering", "[cli][errors]")
 {
-    const SceneFolder folder;
+    const SceneDirectory directory;
     const auto complaint = [&](const Names& words) {
         // Were it rendered first, this would take hours.
         Names all = {"scene.xml", "--spp", "67108864", "--size", "1024x1024"};
         all.insert(all.end(), words.begin(), words.end());
-        const Names before = folder.files();
-        const RunResult result = folder.run(all);
+        const Names before = directory.files();
+        const RunResult result = directory.run(all);
         CHECK(result.exit_code == 1);
-        CHECK(folder.files() == before);
+        CHECK(directory.files() == before);
         return result.err;
     };
     CHECK_THAT(complaint({"-o", "none/a.exr"}), ContainsSubstring("none/a.exr"));
@@ -94,9 +95,9 @@ TEST_CASE("an output that cannot be written is found out before rendering", "[cl
     CHECK_THAT(complaint({"-o", "a.exr", "-o", "/proc/a.png"}), ContainsSubstring("/proc/a.png"));
     CHECK(complaint({"-o", "a.exr", "--json", "none/a.json"}) ==
           "error: cannot write 'none/a.json': No such file or directory\n");
-    std::filesystem::create_directory(folder / "folder.exr");
-    CHECK_THAT(complaint({"-o", "folder.exr"}), ContainsSubstring("folder.exr"));
-    folder.write("old.exr", "not touched");
+    std::filesystem::create_directory(directory / "directory.exr");
+    CHECK_THAT(complaint({"-o", "directory.exr"}), ContainsSubstring("directory.exr"));
+    directory.write("old.exr", "not touched");
     CHECK_THAT(complaint({"-o", "old.exr", "-o", "none/a.exr"}), ContainsSubstring("none/a.exr"));
-    CHECK(read_bytes(folder / "old.exr") == "not touched");
+    CHECK(read_bytes(directory / "old.exr") == "not touched");
 }

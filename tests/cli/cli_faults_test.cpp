@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-// What goes wrong around a long rendering: disks, folders, memory, and files that change meanwhile.
+// What goes wrong around a long rendering: disks, directories, memory, and files that change meanwhile.
 
 #include "build_paths.h"
 #include "cli/small_scene.h"
@@ -14,11 +14,11 @@ using namespace plumb;
 namespace {
 
 // In a shell with a limit: "ulimit -f 40".
-RunResult run_limited(const SceneFolder& folder, const std::string& limit, const Names& words)
+RunResult run_limited(const SceneDirectory& directory, const std::string& limit, const Names& words)
 {
     Names all = {"/bin/sh", "-c", limit + R"( && exec "$@")", "sh", PLUMB_RENDERER};
     all.insert(all.end(), words.begin(), words.end());
-    return run_program(all, folder.path());
+    return run_program(all, directory.path());
 }
 
 // Waits until the file is there: rendering has begun.
@@ -31,89 +31,92 @@ Meanwhile once_there(const std::filesystem::path& file, const std::function<void
     };
 }
 
-// What a rendering says while the folder `gone` vanishes.
-RunResult lose_folder(const SceneFolder& folder, const std::string& gone, const std::string& output,
-                      const std::string& checkpoint)
+// What a rendering says while the directory `gone` vanishes.
+RunResult lose_directory(const SceneDirectory& directory, const std::string& gone, const std::string& output,
+                         const std::string& checkpoint)
 {
-    std::filesystem::create_directory(folder / gone);
+    std::filesystem::create_directory(directory / gone);
     return run_renderer({"scene.xml", "--quiet", "--spp", "40000", "--crop", "20,16,4,4", "-o", output,
                          "--checkpoint", checkpoint, "--checkpoint-every", "0.05s"},
-                        folder.path(), "",
-                        once_there(folder / checkpoint, [&] { std::filesystem::remove_all(folder / gone); }));
+                        directory.path(), "", once_there(directory / checkpoint, [&] {
+                            std::filesystem::remove_all(directory / gone);
+                        }));
 }
 
 } // namespace
 
 TEST_CASE("a disk that is full leaves the last checkpoint", "[cli][faults]")
 {
-    const SceneFolder folder;
-    REQUIRE(
-        folder.run({"scene.xml", "-o", "a.exr", "--crop", "0,0,40,30", "--checkpoint", "c.exr"}).exit_code ==
-        0);
-    const std::string before = read_bytes(folder / "c.exr");
-    const auto files = folder.files();
+    const SceneDirectory directory;
+    REQUIRE(directory.run({"scene.xml", "-o", "a.exr", "--crop", "0,0,40,30", "--checkpoint", "c.exr"})
+                .exit_code == 0);
+    const std::string before = read_bytes(directory / "c.exr");
+    const auto files = directory.files();
     // 4 kB: too little for either file.
-    const RunResult full = run_limited(folder, "ulimit -f 4",
+    const RunResult full = run_limited(directory, "ulimit -f 4",
                                        {"scene.xml", "-o", "a.exr", "--crop", "0,0,40,30", "--checkpoint",
                                         "c.exr", "--resume", "--spp", "9", "--quiet"});
     CHECK(full.exit_code == 1);
     CHECK(full.err ==
           "error: cannot write 'c.exr': File too large and cannot write 'a.exr': File too large\n");
-    CHECK(read_bytes(folder / "c.exr") == before);
-    CHECK(folder.files() == files); // and nothing half-written
+    CHECK(read_bytes(directory / "c.exr") == before);
+    CHECK(directory.files() == files); // and nothing half-written
 }
 
 TEST_CASE("a checkpoint that cannot be written does not lose the picture", "[cli][faults]")
 {
-    const SceneFolder folder;
-    REQUIRE(folder.run({"scene.xml", "-o", "whole.exr", "--quiet", "--spp", "40000", "--crop", "20,16,4,4"})
-                .exit_code == 0);
-    const RunResult result = lose_folder(folder, "gone", "a.exr", "gone/c.exr");
+    const SceneDirectory directory;
+    REQUIRE(
+        directory.run({"scene.xml", "-o", "whole.exr", "--quiet", "--spp", "40000", "--crop", "20,16,4,4"})
+            .exit_code == 0);
+    const RunResult result = lose_directory(directory, "gone", "a.exr", "gone/c.exr");
     CHECK(result.exit_code == 1);
     CHECK_THAT(result.err, ContainsSubstring("warning: cannot write 'gone/c.exr': No such file or directory; "
                                              "rendering goes on\n"));
     CHECK_THAT(result.err,
                ContainsSubstring("error: cannot write 'gone/c.exr': No such file or directory\n"));
-    CHECK(read_bytes(folder / "a.exr") == read_bytes(folder / "whole.exr"));
+    CHECK(read_bytes(directory / "a.exr") == read_bytes(directory / "whole.exr"));
 }
 
-TEST_CASE("a picture whose folder vanished is put beside the checkpoint", "[cli][faults]")
+TEST_CASE("a picture whose directory vanished is put beside the checkpoint", "[cli][faults]")
 {
-    const SceneFolder folder;
-    std::filesystem::create_directory(folder / "kept");
-    std::filesystem::create_directory(folder / "gone");
+    const SceneDirectory directory;
+    std::filesystem::create_directory(directory / "kept");
+    std::filesystem::create_directory(directory / "gone");
     const RunResult result = run_renderer(
         {"scene.xml", "--quiet", "--spp", "40000", "--crop", "20,16,4,4", "-o", "gone/a.exr", "--checkpoint",
          "kept/c.exr", "--checkpoint-every", "0.05s"},
-        folder.path(), "",
-        once_there(folder / "kept/c.exr", [&] { std::filesystem::remove_all(folder / "gone"); }));
+        directory.path(), "",
+        once_there(directory / "kept/c.exr", [&] { std::filesystem::remove_all(directory / "gone"); }));
     CHECK(result.exit_code == 1);
     CHECK(result.err ==
-          "error: cannot write 'gone/a.exr': the folder 'gone' does not exist; the picture is in "
+          "error: cannot write 'gone/a.exr': the directory 'gone' does not exist; the picture is in "
           "'kept/a.exr' instead\n");
-    REQUIRE(folder.run({"scene.xml", "-o", "whole.exr", "--quiet", "--spp", "40000", "--crop", "20,16,4,4"})
-                .exit_code == 0);
-    CHECK(read_bytes(folder / "kept/a.exr") == read_bytes(folder / "whole.exr"));
+    REQUIRE(
+        directory.run({"scene.xml", "-o", "whole.exr", "--quiet", "--spp", "40000", "--crop", "20,16,4,4"})
+            .exit_code == 0);
+    CHECK(read_bytes(directory / "kept/a.exr") == read_bytes(directory / "whole.exr"));
 }
 
 TEST_CASE("a scene that is edited while it is rendered is not gone on from", "[cli][faults]")
 {
-    const SceneFolder folder;
-    REQUIRE(folder.run({"scene.xml", "-o", "whole.exr", "--quiet", "--spp", "40000", "--crop", "20,16,4,4"})
-                .exit_code == 0);
+    const SceneDirectory directory;
+    REQUIRE(
+        directory.run({"scene.xml", "-o", "whole.exr", "--quiet", "--spp", "40000", "--crop", "20,16,4,4"})
+            .exit_code == 0);
     const Names words = {"scene.xml",          "--quiet", "--spp", "40000",        "--crop",
                          "20,16,4,4",          "-o",      "a.exr", "--checkpoint", "c.exr",
                          "--checkpoint-every", "0.05s"};
     const RunResult result =
-        run_renderer(words, folder.path(), "", once_there(folder / "c.exr", [&] {
-                         folder.write("scene.xml", small_scene(R"(<integrator type="path"/>)"));
+        run_renderer(words, directory.path(), "", once_there(directory / "c.exr", [&] {
+                         directory.write("scene.xml", small_scene(R"(<integrator type="path"/>)"));
                      }));
     // The picture is that of the scene as it was read.
     REQUIRE(result.exit_code == 0);
-    CHECK(read_bytes(folder / "a.exr") == read_bytes(folder / "whole.exr"));
+    CHECK(read_bytes(directory / "a.exr") == read_bytes(directory / "whole.exr"));
     Names more = words;
     more.emplace_back("--resume");
-    const RunResult again = folder.run(more);
+    const RunResult again = directory.run(more);
     CHECK(again.exit_code == 1);
     CHECK_THAT(again.err, ContainsSubstring("error: cannot go on from 'c.exr': 'scene.xml' has changed"));
 }
@@ -122,10 +125,10 @@ TEST_CASE("a scene that is edited while it is rendered is not gone on from", "[c
 #if !defined(__SANITIZE_ADDRESS__)
 TEST_CASE("too little memory is an error wherever it is met", "[cli][faults]")
 {
-    const SceneFolder folder;
+    const SceneDirectory directory;
     int failures = 0;
     for (int megabytes = 500; megabytes <= 1200; megabytes += 100) {
-        const RunResult result = run_limited(folder, "ulimit -v " + std::to_string(megabytes * 1000),
+        const RunResult result = run_limited(directory, "ulimit -v " + std::to_string(megabytes * 1000),
                                              {"scene.xml", "-o", "a.exr", "--size", "1500x1000", "--crop",
                                               "0,0,1500,10", "--spp", "1", "--quiet", "--threads", "1"});
         INFO(megabytes << " MB: " << result.err);
@@ -134,7 +137,7 @@ TEST_CASE("too little memory is an error wherever it is met", "[cli][faults]")
         if (result.exit_code != 1) continue;
         ++failures;
         CHECK(result.err.find("memory") != std::string::npos);
-        CHECK_FALSE(std::filesystem::exists(folder / "a.exr"));
+        CHECK_FALSE(std::filesystem::exists(directory / "a.exr"));
     }
     CHECK(failures > 0);
 }

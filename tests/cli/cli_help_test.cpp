@@ -12,9 +12,9 @@ using namespace plumb;
 
 TEST_CASE("help is another word for --help", "[cli][help]")
 {
-    const TempFolder folder;
+    const TempDirectory directory;
     const auto out = [&](const Names& words) {
-        const RunResult result = run_renderer(words, folder.path());
+        const RunResult result = run_renderer(words, directory.path());
         CHECK(result.exit_code == 0);
         CHECK(result.err.empty());
         return result.out;
@@ -39,9 +39,9 @@ TEST_CASE("help is another word for --help", "[cli][help]")
 
 TEST_CASE("words that are no verbs are wrong usage", "[cli][help]")
 {
-    const SceneFolder folder;
+    const SceneDirectory directory;
     const auto complaint = [&](const Names& words) {
-        const RunResult result = folder.run(words);
+        const RunResult result = directory.run(words);
         CHECK(result.exit_code == 2);
         CHECK(result.out.empty());
         return result.err;
@@ -71,22 +71,22 @@ TEST_CASE("words that are no verbs are wrong usage", "[cli][help]")
         CHECK(complaint({slip}) == expected);
         CHECK(complaint({slip, "scene.xml", "b.exr"}) == expected);
     }
-    CHECK(folder.files() == Names{"scene.xml"});
+    CHECK(directory.files() == Names{"scene.xml"});
 }
 
 TEST_CASE("a scene may be called as nobody would call it", "[cli][help]")
 {
-    const SceneFolder folder;
-    folder.write("chek", small_scene());
-    CHECK(folder.run({"check", "chek", "--quiet"}).exit_code == 0);
-    CHECK(folder.run({"chek", "-o", "a.exr"}).exit_code == 0);
+    const SceneDirectory directory;
+    directory.write("chek", small_scene());
+    CHECK(directory.run({"check", "chek", "--quiet"}).exit_code == 0);
+    CHECK(directory.run({"chek", "-o", "a.exr"}).exit_code == 0);
 }
 
 TEST_CASE("types prints the manuals of kinds and elements, too", "[cli][help]")
 {
-    const TempFolder folder;
+    const TempDirectory directory;
     const auto out = [&](const std::string& name) {
-        const RunResult result = run_renderer({"types", name}, folder.path());
+        const RunResult result = run_renderer({"types", name}, directory.path());
         CHECK(result.exit_code == 0);
         CHECK(result.err.empty());
         return result.out;
@@ -109,7 +109,7 @@ TEST_CASE("types prints the manuals of kinds and elements, too", "[cli][help]")
     CHECK(out("lookat") == out("transform"));
 
     const auto complaint = [&](const std::string& name) {
-        const RunResult result = run_renderer({"types", name}, folder.path());
+        const RunResult result = run_renderer({"types", name}, directory.path());
         CHECK(result.exit_code == 2);
         return result.err;
     };

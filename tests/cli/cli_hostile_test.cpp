@@ -4,15 +4,15 @@
 // they do for good ones or end with an error that names the file; they write nothing that the command line does not name,
 // and nothing of it steers a terminal.
 
+#include "base/temporary_file.h"
+#include "base/visible_text.h"
 #include "cli/commands.h"
 #include "cli/small_scene.h"
 #include "cli/verbs.h"
-#include "core/visible_text.h"
-#include "io/image_words.h"
-#include "io/temporary_file.h"
-#include "plumb/error.h"
-#include "plumb/hash.h"
-#include "plumb/state_file.h"
+#include "image/image_words.h"
+#include "plumb/base/error.h"
+#include "plumb/base/hash.h"
+#include "plumb/render/state_file.h"
 #include "support/catch.h"
 
 #include <bit>
@@ -68,9 +68,9 @@ struct Outcome {
 };
 
 // Runs a verb here, for a process each would take minutes.
-Outcome run_here(const TempFolder& folder, const Names& words)
+Outcome run_here(const TempDirectory& directory, const Names& words)
 {
-    const std::string file = (folder / "said").string();
+    const std::string file = (directory / "said").string();
     const int capture = open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
     std::fflush(stdout);
     const int out = dup(1);
@@ -98,7 +98,7 @@ Outcome run_here(const TempFolder& folder, const Names& words)
     return outcome;
 }
 
-void check_outcome(const TempFolder& folder, const Outcome& outcome, const std::string& file)
+void check_outcome(const TempDirectory& directory, const Outcome& outcome, const std::string& file)
 {
     INFO(outcome.said);
     CHECK((outcome.code == 0 || outcome.code == 1 || outcome.code == 3 || outcome.code == 4));
@@ -108,7 +108,7 @@ void check_outcome(const TempFolder& folder, const Outcome& outcome, const std::
     CHECK(visible_text(shown) == shown);
     if (outcome.code == 1)
         CHECK((shown.find(file) != shown.npos || shown.find("the scene is not what it was") != shown.npos));
-    CHECK_FALSE(std::filesystem::exists(folder / "stolen.exr"));
+    CHECK_FALSE(std::filesystem::exists(directory / "stolen.exr"));
     CHECK_FALSE(std::filesystem::exists("stolen.exr"));
 }
 
@@ -119,8 +119,8 @@ void set(Metadata& header, const std::string& name, MetadataValue value)
 }
 
 // A small picture, and a state file of half of it.
-struct HostileFolder : TempFolder {
-    HostileFolder()
+struct HostileDirectory : TempDirectory {
+    HostileDirectory()
     {
         write("scene.xml", small_scene());
         REQUIRE(run({"(scene)", "--size", "8x6", "--spp", "4", "--quiet", "-o", "(good.exr)"}).code == 0);
@@ -128,7 +128,7 @@ struct HostileFolder : TempFolder {
                      "(good.state.exr)"})
                     .code == 0);
     }
-    // "(a.exr)": in this folder.
+    // "(a.exr)": in this directory.
     Outcome run(Names words) const
     {
         for (std::string& word : words)
@@ -240,119 +240,121 @@ void forge_state(const std::filesystem::path& from, const std::filesystem::path&
 
 TEST_CASE("a picture's header is untrusted, whatever reads it", "[cli][hostile]")
 {
-    const HostileFolder folder;
-    const Image good = read_image(folder / "good.exr", false);
+    const HostileDirectory directory;
+    const Image good = read_image(directory / "good.exr", false);
     for (const std::string& key : picture_keys(good.metadata)) {
         for (const MetadataValue& value : hostile_values()) {
-            Image bad = read_image(folder / "good.exr", false);
+            Image bad = read_image(directory / "good.exr", false);
             set(bad.metadata, key, value);
-            write_image(folder / "bad.exr", bad);
+            write_image(directory / "bad.exr", bad);
             INFO(key << " = " << text_of(value));
             for (const Names& words :
                  {Names{"rerun", "(bad.exr)", "-o", "(again.exr)"}, Names{"info", "(bad.exr)"},
                   Names{"compare", "(bad.exr)", "(good.exr)", "--flip", "none"}})
-                check_outcome(folder, folder.run(words), "bad.exr");
+                check_outcome(directory, directory.run(words), "bad.exr");
         }
     }
 }
 
 TEST_CASE("samples outside the picture are refused", "[cli][hostile]")
 {
-    const HostileFolder folder;
+    const HostileDirectory directory;
     for (const char* samples : {"8,6,1,1:0-4", "60000,60000,8,6:0-4", "0,0,65536,65536:0-4", "0,0,9,6:0-4",
                                 "0,0,8,7:0-4", "0,0,8,6:0-4 8,0,1,1:0-1"}) {
-        Image bad = read_image(folder / "good.exr", false);
+        Image bad = read_image(directory / "good.exr", false);
         set(bad.metadata, "plumb:samplesTaken", std::string(samples));
-        write_image(folder / "bad.exr", bad);
-        const Outcome outcome = folder.run({"rerun", "(bad.exr)", "-o", "(again.exr)"});
+        write_image(directory / "bad.exr", bad);
+        const Outcome outcome = directory.run({"rerun", "(bad.exr)", "-o", "(again.exr)"});
         CHECK(outcome.code == 1);
         CHECK_THAT(outcome.said,
                    ContainsSubstring("bad.exr' makes no sense: plumb:samplesTaken has samples outside the "
                                      "picture"));
-        CHECK_FALSE(std::filesystem::exists(folder / "again.exr"));
+        CHECK_FALSE(std::filesystem::exists(directory / "again.exr"));
     }
 }
 
 TEST_CASE("options in a header that do not change the picture are refused", "[cli][hostile]")
 {
-    const HostileFolder folder;
+    const HostileDirectory directory;
     for (const char* arguments :
          {"--spp 4 --checkpoint stolen.exr --checkpoint-every 1s", "--spp 4 -o stolen.exr --part 1/1",
           "--json stolen.exr", "--bogus", "'", "--help", "--version", "--threads 1000", "--quiet",
           "other.xml", "-- other.xml"}) {
-        Image bad = read_image(folder / "good.exr", false);
+        Image bad = read_image(directory / "good.exr", false);
         set(bad.metadata, "plumb:arguments", std::string(arguments));
-        write_image(folder / "bad.exr", bad);
-        forge_state(folder / "good.state.exr", folder / "bad.state.exr", [&](WordImage& image, auto&) {
+        write_image(directory / "bad.exr", bad);
+        forge_state(directory / "good.state.exr", directory / "bad.state.exr", [&](WordImage& image, auto&) {
             set(image.metadata, "plumb:arguments", std::string(arguments));
         });
         INFO(arguments);
         for (const Names& words :
              {Names{"rerun", "(bad.exr)", "-o", "(again.exr)"},
               Names{"merge", "(bad.state.exr)", "-o", "(again.exr)", "--allow-missing"}}) {
-            const Outcome outcome = folder.run(words);
+            const Outcome outcome = directory.run(words);
             CHECK(outcome.code == 1);
-            check_outcome(folder, outcome, words[1].substr(1, words[1].size() - 2));
+            check_outcome(directory, outcome, words[1].substr(1, words[1].size() - 2));
             CHECK_THAT(outcome.said, ContainsSubstring("makes no sense: plumb:arguments: "));
-            CHECK_FALSE(std::filesystem::exists(folder / "again.exr"));
+            CHECK_FALSE(std::filesystem::exists(directory / "again.exr"));
         }
     }
 }
 
 TEST_CASE("hashes of Plumb 0.1 are said to be so", "[cli][hostile]")
 {
-    const HostileFolder folder;
+    const HostileDirectory directory;
     const std::string old(32, '7');
-    Image bad = read_image(folder / "good.exr", false);
+    Image bad = read_image(directory / "good.exr", false);
     set(bad.metadata, "plumb:inputHash", old);
     set(bad.metadata, "plumb:inputs", old + " scene.xml");
-    write_image(folder / "bad.exr", bad);
-    const Outcome rerun = folder.run({"rerun", "(bad.exr)", "-o", "(again.exr)"});
+    write_image(directory / "bad.exr", bad);
+    const Outcome rerun = directory.run({"rerun", "(bad.exr)", "-o", "(again.exr)"});
     CHECK(rerun.code == 1);
     CHECK_THAT(rerun.said, ContainsSubstring("hashes of Plumb 0.1, not by SHA-256"));
-    CHECK(folder.run({"info", "(bad.exr)"}).code == 0);
+    CHECK(directory.run({"info", "(bad.exr)"}).code == 0);
 }
 
 TEST_CASE("a state's header is untrusted, whatever reads it", "[cli][hostile]")
 {
-    const HostileFolder folder;
+    const HostileDirectory directory;
     std::vector<std::string> keys = {"plumb:workBiases", "plumb:workModel", "plumb:workStop"};
-    forge_state(folder / "good.state.exr", folder / "same.state.exr", [&](WordImage& image, auto&) {
+    forge_state(directory / "good.state.exr", directory / "same.state.exr", [&](WordImage& image, auto&) {
         for (const auto& [name, value] : image.metadata) keys.push_back(name);
     });
-    REQUIRE(folder.run({"merge", "(same.state.exr)", "--allow-missing", "-o", "(again.exr)"}).code == 0);
+    REQUIRE(directory.run({"merge", "(same.state.exr)", "--allow-missing", "-o", "(again.exr)"}).code == 0);
     for (const std::string& key : keys) {
         if (key == "plumb:stateHash") continue;
         for (const MetadataValue& value : hostile_values()) {
-            forge_state(folder / "good.state.exr", folder / "bad.state.exr",
+            forge_state(directory / "good.state.exr", directory / "bad.state.exr",
                         [&](WordImage& image, auto&) { set(image.metadata, key, value); });
             INFO(key << " = " << text_of(value));
-            check_outcome(folder,
-                          folder.run({"merge", "(bad.state.exr)", "--allow-missing", "-o", "(again.exr)"}),
+            check_outcome(directory,
+                          directory.run({"merge", "(bad.state.exr)", "--allow-missing", "-o", "(again.exr)"}),
                           "bad.state.exr");
-            check_outcome(folder,
-                          folder.run({"merge", "(good.state.exr)", "(bad.state.exr)", "-o", "(again.exr)"}),
+            check_outcome(
+                directory,
+                directory.run({"merge", "(good.state.exr)", "(bad.state.exr)", "-o", "(again.exr)"}),
+                "bad.state.exr");
+            check_outcome(directory,
+                          directory.run({"(scene)", "--size", "8x6", "--spp", "4", "--part", "1/2",
+                                         "--resume", "-o", "(bad.state.exr)"}),
                           "bad.state.exr");
-            check_outcome(folder,
-                          folder.run({"(scene)", "--size", "8x6", "--spp", "4", "--part", "1/2", "--resume",
-                                      "-o", "(bad.state.exr)"}),
-                          "bad.state.exr");
-            std::filesystem::remove(folder / "bad.state.previous.exr");
+            std::filesystem::remove(directory / "bad.state.previous.exr");
         }
     }
 }
 
 TEST_CASE("sums that no samples can have are refused", "[cli][hostile]")
 {
-    const HostileFolder folder;
+    const HostileDirectory directory;
     for (const std::uint32_t word : {0x7fffffffu, 0x80000000u, 0xffffffffu, 5u}) {
-        forge_state(folder / "good.state.exr", folder / "bad.state.exr", [&](WordImage& image, auto& words) {
-            const auto count = std::find(image.word_channels.begin(), image.word_channels.end(), "count");
-            REQUIRE(count != image.word_channels.end());
-            words[3 + static_cast<std::size_t>(count - image.word_channels.begin())] = word;
-        });
+        forge_state(
+            directory / "good.state.exr", directory / "bad.state.exr", [&](WordImage& image, auto& words) {
+                const auto count = std::find(image.word_channels.begin(), image.word_channels.end(), "count");
+                REQUIRE(count != image.word_channels.end());
+                words[3 + static_cast<std::size_t>(count - image.word_channels.begin())] = word;
+            });
         const Outcome outcome =
-            folder.run({"merge", "(bad.state.exr)", "--allow-missing", "-o", "(again.exr)"});
+            directory.run({"merge", "(bad.state.exr)", "--allow-missing", "-o", "(again.exr)"});
         CHECK(outcome.code == 1);
         CHECK_THAT(outcome.said, ContainsSubstring("it has sums that its samples cannot have"));
     }

@@ -46,45 +46,46 @@ void check_kills(int kills_wanted)
     const std::uint64_t seed = given ? std::strtoull(given, nullptr, 10) : std::random_device()();
     INFO("PLUMB_TEST_SEED=" << seed);
     TestRandom random(seed);
-    const SceneFolder folder;
+    const SceneDirectory directory;
     const Names words = {"scene.xml", "--quiet", "--spp", "200", "-o"};
     const auto with = [&](const Names& more) {
         Names all = words;
         all.insert(all.end(), more.begin(), more.end());
         return all;
     };
-    REQUIRE(folder.run(with({"whole.exr"})).exit_code == 0);
-    const std::string whole = read_bytes(folder / "whole.exr");
+    REQUIRE(directory.run(with({"whole.exr"})).exit_code == 0);
+    const std::string whole = read_bytes(directory / "whole.exr");
 
-    // LD_PRELOAD is a list: a space or a colon in the name of the build folder would end the name.
-    std::filesystem::create_symlink(PLUMB_KILLER, folder / "killer.so");
-    const std::string preload = "LD_PRELOAD=" + (folder / "killer.so").string();
+    // LD_PRELOAD is a list: a space or a colon in the name of the build directory would end the name.
+    std::filesystem::create_symlink(PLUMB_KILLER, directory / "killer.so");
+    const std::string preload = "LD_PRELOAD=" + (directory / "killer.so").string();
 
     std::map<std::string, int> kills;
     int pictures = 0;
     for (int killed = 0; killed < kills_wanted;) {
-        folder.write("trace", "");
+        directory.write("trace", "");
         const std::string moment = random_kill(random);
         const RunResult result =
             run_renderer(with({"a.exr", "--checkpoint", "c.exr", "--checkpoint-every", "0.02s", "--resume"}),
-                         folder.path(), "", {},
+                         directory.path(), "", {},
                          {preload, "ASAN_OPTIONS=verify_asan_link_order=0", "PLUMB_KILL=" + moment,
-                          "PLUMB_KILL_TRACE=" + (folder / "trace").string()});
+                          "PLUMB_KILL_TRACE=" + (directory / "trace").string()});
         INFO(moment << ": " << result.err);
         if (result.exit_code == 128 + SIGKILL) {
             ++killed;
-            ++kills[last_line(read_bytes(folder / "trace"))];
+            ++kills[last_line(read_bytes(directory / "trace"))];
             continue;
         }
         REQUIRE(result.exit_code == 0);
         REQUIRE(result.err.empty()); // no generation was damaged
-        REQUIRE(read_bytes(folder / "a.exr") == whole);
+        REQUIRE(read_bytes(directory / "a.exr") == whole);
         ++pictures;
-        for (const char* file : {"a.exr", "c.exr", "c.previous.exr"}) std::filesystem::remove(folder / file);
+        for (const char* file : {"a.exr", "c.exr", "c.previous.exr"})
+            std::filesystem::remove(directory / file);
     }
     // Undisturbed, it comes to its end.
-    REQUIRE(folder.run(with({"a.exr", "--checkpoint", "c.exr", "--resume"})).exit_code == 0);
-    REQUIRE(read_bytes(folder / "a.exr") == whole);
+    REQUIRE(directory.run(with({"a.exr", "--checkpoint", "c.exr", "--resume"})).exit_code == 0);
+    REQUIRE(read_bytes(directory / "a.exr") == whole);
     std::string counts;
     for (const std::string& phase : phases) counts += " " + phase + " " + std::to_string(kills[phase]);
     WARN("kills:" << counts << "; pictures on the way: " << pictures);

@@ -2,7 +2,7 @@
 
 // Files that scenes, tests and suites name: where they are looked for, and what is said when they are not there.
 
-#include "plumb/image.h"
+#include "plumb/image/image.h"
 #include "support/catch.h"
 #include "support/run.h"
 
@@ -42,8 +42,8 @@ const Parameter parameters[] = {
     {"", "Data/part.xml", "<include filename='", "'/>"},
 };
 
-// A folder with the files, in `below`, and a scene in scenes/ that names one.
-struct Files : TempFolder {
+// A directory with the files, in `below`, and a scene in scenes/ that names one.
+struct Files : TempDirectory {
     explicit Files(const std::string& below)
     {
         write(below + "Data/square.obj", square);
@@ -79,7 +79,7 @@ TEST_CASE("a file beside the scene is found, with backslashes too", "[cli][named
     }
 }
 
-TEST_CASE("a file in the working folder is found, and the notice says what to write", "[cli][named_files]")
+TEST_CASE("a file in the working directory is found, and the notice says what to write", "[cli][named_files]")
 {
     const Files files("");
     for (const Parameter& parameter : parameters) {
@@ -87,12 +87,12 @@ TEST_CASE("a file in the working folder is found, and the notice says what to wr
             CAPTURE(name);
             const RunResult result = files.check(parameter, name);
             CHECK(result.exit_code == 3);
-            CHECK_THAT(
-                result.err,
-                ContainsSubstring("warning: '" + parameter.file +
-                                  "' is not beside 'scenes' but in the working folder, where another run may "
-                                  "find another file or none; write '../" +
-                                  parameter.file + "'\n"));
+            CHECK_THAT(result.err,
+                       ContainsSubstring(
+                           "warning: '" + parameter.file +
+                           "' is not beside 'scenes' but in the working directory, where another run may "
+                           "find another file or none; write '../" +
+                           parameter.file + "'\n"));
             // What it says to write is right.
             CHECK_THAT(files.check(parameter, "../" + parameter.file).err, !ContainsSubstring("warning"));
         }
@@ -141,7 +141,7 @@ TEST_CASE("scenes of suites, and scenes on the command line, have the same way o
     };
     CHECK(batch("..\\scenes\\a.xml").exit_code == 0);
     CHECK(batch("..\\scenes\\*.xml").exit_code == 0);
-    CHECK(batch("scenes/a.xml").exit_code == 0); // from the working folder
+    CHECK(batch("scenes/a.xml").exit_code == 0); // from the working directory
     const RunResult absent = batch("../Scenes/a.xml");
     CHECK(absent.exit_code != 0);
     CHECK_THAT(absent.out + absent.err, ContainsSubstring("did you mean '../scenes/a.xml'?"));
@@ -151,7 +151,7 @@ TEST_CASE("scenes of suites, and scenes on the command line, have the same way o
     CHECK(slip.err == "error: there is no scene file 'scenes/A.xml'; did you mean 'scenes/a.xml'?\n");
 }
 
-TEST_CASE("a picture whose mesh lay in the working folder is rendered again, or refused",
+TEST_CASE("a picture whose mesh lay in the working directory is rendered again, or refused",
           "[cli][named_files]")
 {
     const Files files("");
@@ -160,7 +160,7 @@ TEST_CASE("a picture whose mesh lay in the working folder is rendered again, or 
     REQUIRE(run_renderer({"scenes/a.xml", "-o", "a.exr"}, files.path()).exit_code == 0);
     REQUIRE(run_renderer({"rerun", "a.exr", "-o", "b.exr"}, files.path()).exit_code == 0);
     CHECK(read_bytes(files / "a.exr") == read_bytes(files / "b.exr"));
-    // From another folder there is no such mesh, or another one.
+    // From another directory there is no such mesh, or another one.
     files.write("other/readme", "");
     const RunResult absent =
         run_renderer({"rerun", "../a.exr", "-o", "c.exr", "--scene", "../scenes/a.xml"}, files / "other");

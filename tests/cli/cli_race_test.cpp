@@ -20,10 +20,10 @@ double number_after(const std::string& text, const std::string& words, std::size
 
 TEST_CASE("the race names the most efficient estimator", "[cli][race]")
 {
-    const SceneFolder folder;
-    folder.write("easy.xml", easy_scene);
-    const RunResult run = folder.run({"race", "easy.xml", "--integrators", "path,path_mis", "--spp", "16",
-                                      "--rounds", "20", "--json", "a.json"});
+    const SceneDirectory directory;
+    directory.write("easy.xml", easy_scene);
+    const RunResult run = directory.run({"race", "easy.xml", "--integrators", "path,path_mis", "--spp", "16",
+                                         "--rounds", "20", "--json", "a.json"});
     INFO(run.out << run.err);
     CHECK(run.exit_code == 0);
     CHECK(run.out.starts_with("easy.xml: 20 rounds of 16 samples per pixel\n"));
@@ -32,7 +32,7 @@ TEST_CASE("the race names the most efficient estimator", "[cli][race]")
     CHECK_THAT(run.out, ContainsSubstring("\n  path and path_mis: agree, p "));
     CHECK(run.out.ends_with("\nagree\n"));
 
-    const std::string json = read_bytes(folder / "a.json");
+    const std::string json = read_bytes(directory / "a.json");
     const std::size_t second = json.find("\"name\": \"path\"");
     CHECK(json.find("\"name\": \"path_mis\"") < second);
     CHECK(number_after(json, "\"efficiency\": ", 0) == 1.0);
@@ -46,10 +46,10 @@ TEST_CASE("the race names the most efficient estimator", "[cli][race]")
 
 TEST_CASE("an estimator that finds no light does not win", "[cli][race]")
 {
-    const SceneFolder folder;
-    folder.write("small.xml", small_lamp_scene());
-    const RunResult run =
-        folder.run({"race", "small.xml", "--integrators", "path,path_nee", "--spp", "4", "--rounds", "12"});
+    const SceneDirectory directory;
+    directory.write("small.xml", small_lamp_scene());
+    const RunResult run = directory.run(
+        {"race", "small.xml", "--integrators", "path,path_nee", "--spp", "4", "--rounds", "12"});
     INFO(run.out << run.err);
     CHECK(run.exit_code == 4);
     CHECK_THAT(run.out, ContainsSubstring("  1\n  path      "));
@@ -59,13 +59,13 @@ TEST_CASE("an estimator that finds no light does not win", "[cli][race]")
 
 TEST_CASE("the variance of a race is that of the pictures' own error bars", "[cli][race]")
 {
-    const SceneFolder folder;
-    folder.write("easy.xml", easy_scene);
-    const RunResult race = folder.run({"race", "easy.xml", "--integrators", "path_mis,path_nee", "--spp",
-                                       "32", "--rounds", "40", "--json", "-"});
+    const SceneDirectory directory;
+    directory.write("easy.xml", easy_scene);
+    const RunResult race = directory.run({"race", "easy.xml", "--integrators", "path_mis,path_nee", "--spp",
+                                          "32", "--rounds", "40", "--json", "-"});
     CHECK(race.exit_code == 0);
     const double variance = number_after(race.out, "\"variance\": ", race.out.find("\"name\": \"path_mis\""));
-    const RunResult picture = folder.run(
+    const RunResult picture = directory.run(
         {"easy.xml", "-o", "a.exr", "--spp", "32", "--integrator", "path_mis", "--json", "-", "--quiet"});
     const double rmse = number_after(picture.out, "\"rmse\": ", 0);
     // 1296 values, each known to a few hundredths.
@@ -74,10 +74,10 @@ TEST_CASE("the variance of a race is that of the pictures' own error bars", "[cl
 
 TEST_CASE("estimators that differ have raced for nothing", "[cli][race]")
 {
-    const SceneFolder folder;
-    folder.write("easy.xml", easy_scene);
-    const RunResult run =
-        folder.run({"race", "easy.xml", "--integrators", "path_mis,direct_mis", "--samplers", "independent"});
+    const SceneDirectory directory;
+    directory.write("easy.xml", easy_scene);
+    const RunResult run = directory.run(
+        {"race", "easy.xml", "--integrators", "path_mis,direct_mis", "--samplers", "independent"});
     CHECK(run.exit_code == 3);
     CHECK_THAT(run.out,
                ContainsSubstring("  path_mis with independent and direct_mis with independent: differs, p "));
@@ -86,15 +86,15 @@ TEST_CASE("estimators that differ have raced for nothing", "[cli][race]")
 
 TEST_CASE("a race takes a time instead of a number of samples", "[cli][race]")
 {
-    const SceneFolder folder;
-    folder.write("easy.xml", easy_scene);
-    const RunResult run = folder.run({"race", "easy.xml", "--time", "1s", "--rounds", "5"});
+    const SceneDirectory directory;
+    directory.write("easy.xml", easy_scene);
+    const RunResult run = directory.run({"race", "easy.xml", "--time", "1s", "--rounds", "5"});
     CHECK(run.exit_code == 0);
     CHECK_THAT(run.out, ContainsSubstring("easy.xml: 5 rounds of "));
-    CHECK(folder.run({"race", "easy.xml", "--time", "1s", "--spp", "4"}).exit_code == 2);
-    CHECK(folder.run({"race", "easy.xml", "--integrators", "path"}).err ==
+    CHECK(directory.run({"race", "easy.xml", "--time", "1s", "--spp", "4"}).exit_code == 2);
+    CHECK(directory.run({"race", "easy.xml", "--integrators", "path"}).err ==
           "error: race needs two estimators or more; name them with --integrators\n");
-    CHECK(folder.run({"race", "easy.xml", "--rounds", "2"}).exit_code == 2);
-    CHECK(folder.run({"agree", "easy.xml", "--rounds", "5"}).err ==
+    CHECK(directory.run({"race", "easy.xml", "--rounds", "2"}).exit_code == 2);
+    CHECK(directory.run({"agree", "easy.xml", "--rounds", "5"}).err ==
           "error: option '--rounds' does not go with agree\n");
 }

@@ -12,8 +12,8 @@ using namespace plumb;
 
 TEST_CASE("a scene becomes an image", "[cli][render]")
 {
-    const SceneFolder folder;
-    const RunResult result = folder.run({"scene.xml", "-o", "a.exr", "-o", "b.png"});
+    const SceneDirectory directory;
+    const RunResult result = directory.run({"scene.xml", "-o", "a.exr", "-o", "b.png"});
     INFO(result.err);
     REQUIRE(result.exit_code == 0);
     CHECK(result.out.empty());
@@ -21,14 +21,14 @@ TEST_CASE("a scene becomes an image", "[cli][render]")
     CHECK_THAT(result.err, ContainsSubstring("a.exr and b.png: 6.91 k samples in "));
     CHECK_THAT(result.err, ContainsSubstring(" Mrays/s\n"));
     CHECK(result.err.find('\r') == std::string::npos); // a bar is for terminals
-    CHECK(folder.files() == Names{"a.exr", "b.png", "scene.xml"});
+    CHECK(directory.files() == Names{"a.exr", "b.png", "scene.xml"});
 
-    const Image image = read_image(folder / "a.exr", false);
+    const Image image = read_image(directory / "a.exr", false);
     CHECK(image.full_width() == 48);
     CHECK(image.full_height() == 36);
     CHECK(image.channel_names() == Names{"R", "G", "B", "contributing", "variance.R", "variance.G",
                                          "variance.B"}); // OpenImageIO's order
-    CHECK(read_image(folder / "b.png", false).channel_names() == Names{"R", "G", "B"});
+    CHECK(read_image(directory / "b.png", false).channel_names() == Names{"R", "G", "B"});
     float brightest = 0.f;
     for (int y = 0; y < 36; ++y)
         for (int x = 0; x < 48; ++x) brightest = std::max(brightest, max_component(image.color(x, y)));
@@ -37,37 +37,38 @@ TEST_CASE("a scene becomes an image", "[cli][render]")
 
 TEST_CASE("without -o the names come from the scene and its samples", "[cli][render]")
 {
-    const SceneFolder folder;
-    folder.write("scenes/a.b.xml", small_scene());
-    REQUIRE(folder.run({"scenes/a.b.xml"}).exit_code == 0);
-    REQUIRE(folder.run({"scene.xml", "--spp", "2"}).exit_code == 0);
-    CHECK(folder.files() == Names{"a.b_4.exr", "a.b_4.png", "scene.xml", "scene_2.exr", "scene_2.png",
-                                  "scenes", "scenes/a.b.xml"});
+    const SceneDirectory directory;
+    directory.write("scenes/a.b.xml", small_scene());
+    REQUIRE(directory.run({"scenes/a.b.xml"}).exit_code == 0);
+    REQUIRE(directory.run({"scene.xml", "--spp", "2"}).exit_code == 0);
+    CHECK(directory.files() == Names{"a.b_4.exr", "a.b_4.png", "scene.xml", "scene_2.exr", "scene_2.png",
+                                     "scenes", "scenes/a.b.xml"});
 }
 
 TEST_CASE("identical runs write identical files", "[cli][render]")
 {
-    const SceneFolder folder;
-    std::filesystem::create_directory(folder / "elsewhere");
-    REQUIRE(folder.run({"scene.xml", "-o", "a.exr", "-o", "a.png", "--threads", "1"}).exit_code == 0);
+    const SceneDirectory directory;
+    std::filesystem::create_directory(directory / "elsewhere");
+    REQUIRE(directory.run({"scene.xml", "-o", "a.exr", "-o", "a.png", "--threads", "1"}).exit_code == 0);
     for (const char* threads : {"1", "3", "16"}) {
-        const std::string scene = (folder / "scene.xml").string(); // its folder is not in the header
-        REQUIRE(folder.run({scene, "-o", "elsewhere/b.exr", "-o", "b.png", "--threads", threads}).exit_code ==
-                0);
-        CHECK(read_bytes(folder / "a.exr") == read_bytes(folder / "elsewhere/b.exr"));
-        CHECK(read_bytes(folder / "a.png") == read_bytes(folder / "b.png"));
+        const std::string scene = (directory / "scene.xml").string(); // its directory is not in the header
+        REQUIRE(
+            directory.run({scene, "-o", "elsewhere/b.exr", "-o", "b.png", "--threads", threads}).exit_code ==
+            0);
+        CHECK(read_bytes(directory / "a.exr") == read_bytes(directory / "elsewhere/b.exr"));
+        CHECK(read_bytes(directory / "a.png") == read_bytes(directory / "b.png"));
     }
-    REQUIRE(folder.run({"scene.xml", "-o", "c.exr", "--seed", "1"}).exit_code == 0);
-    CHECK(read_bytes(folder / "a.exr") != read_bytes(folder / "c.exr"));
+    REQUIRE(directory.run({"scene.xml", "-o", "c.exr", "--seed", "1"}).exit_code == 0);
+    CHECK(read_bytes(directory / "a.exr") != read_bytes(directory / "c.exr"));
 }
 
 TEST_CASE("a crop is that part of the whole, bit for bit", "[cli][render]")
 {
-    const SceneFolder folder;
-    REQUIRE(folder.run({"scene.xml", "-o", "whole.exr"}).exit_code == 0);
-    REQUIRE(folder.run({"scene.xml", "-o", "crop.exr", "--crop", "11,5,20,17"}).exit_code == 0);
-    const Image whole = read_image(folder / "whole.exr", false);
-    const Image crop = read_image(folder / "crop.exr", false);
+    const SceneDirectory directory;
+    REQUIRE(directory.run({"scene.xml", "-o", "whole.exr"}).exit_code == 0);
+    REQUIRE(directory.run({"scene.xml", "-o", "crop.exr", "--crop", "11,5,20,17"}).exit_code == 0);
+    const Image whole = read_image(directory / "whole.exr", false);
+    const Image crop = read_image(directory / "crop.exr", false);
     CHECK(crop.data_window() == PixelRect{11, 5, 20, 17});
     CHECK(crop.full_width() == 48);
     CHECK(crop.full_height() == 36);
@@ -80,26 +81,26 @@ TEST_CASE("a crop is that part of the whole, bit for bit", "[cli][render]")
 
 TEST_CASE("a crop and a replay need no memory for the whole picture", "[cli][render]")
 {
-    const SceneFolder folder;
+    const SceneDirectory directory;
     const Names huge = {"scene.xml", "--spp", "1", "--size", "65535x65535"};
     Names crop = huge, replay = huge;
     crop.insert(crop.end(), {"--crop", "65000,40,3,2", "-o", "crop.exr"});
-    REQUIRE(folder.run(crop).exit_code == 0);
-    const Image image = read_image(folder / "crop.exr", false);
+    REQUIRE(directory.run(crop).exit_code == 0);
+    const Image image = read_image(directory / "crop.exr", false);
     CHECK(image.data_window() == PixelRect{65000, 40, 3, 2});
     CHECK(image.full_width() == 65535);
     CHECK(image.full_height() == 65535);
     replay.insert(replay.begin(), "replay");
     replay.insert(replay.end(), {"--pixel", "65000,40", "--sample", "0"});
-    CHECK(folder.run(replay).exit_code == 0);
+    CHECK(directory.run(replay).exit_code == 0);
 }
 
 TEST_CASE("options change the scene", "[cli][render]")
 {
-    const SceneFolder folder;
-    folder.write("defined.xml",
-                 small_scene(R"(<default name="how" value="path_nee"/><integrator type="$how"/>)"));
-    REQUIRE(folder
+    const SceneDirectory directory;
+    directory.write("defined.xml",
+                    small_scene(R"(<default name="how" value="path_nee"/><integrator type="$how"/>)"));
+    REQUIRE(directory
                 .run({"scene.xml",
                       "-o",
                       "a.exr",
@@ -122,8 +123,8 @@ TEST_CASE("options change the scene", "[cli][render]")
                       "--envmap-scale",
                       "0.5"})
                 .exit_code == 0);
-    const auto changed = header(folder / "a.exr");
-    CHECK(read_image(folder / "a.exr", false).full_width() == 20);
+    const auto changed = header(directory / "a.exr");
+    CHECK(read_image(directory / "a.exr", false).full_width() == 20);
     CHECK(text(changed, "plumb:integrator") == "normals");
     CHECK(text(changed, "plumb:seed") == "18446744073709551615");
     CHECK(text(changed, "plumb:instructionSet") == "sse4.2");
@@ -131,18 +132,18 @@ TEST_CASE("options change the scene", "[cli][render]")
     CHECK(text(changed, "plumb:mirror") == "on");
     CHECK(text(changed, "plumb:emitters") == "absorb");
 
-    REQUIRE(folder.run({"defined.xml", "-o", "b.exr", "-D", "how=path"}).exit_code == 0);
-    CHECK(text(header(folder / "b.exr"), "plumb:integrator") == "path");
-    CHECK(text(header(folder / "b.exr"), "plumb:definitions") == "how=path");
-    REQUIRE(folder.run({"defined.xml", "-o", "c.exr"}).exit_code == 0);
-    CHECK(text(header(folder / "c.exr"), "plumb:integrator") == "path_nee");
+    REQUIRE(directory.run({"defined.xml", "-o", "b.exr", "-D", "how=path"}).exit_code == 0);
+    CHECK(text(header(directory / "b.exr"), "plumb:integrator") == "path");
+    CHECK(text(header(directory / "b.exr"), "plumb:definitions") == "how=path");
+    REQUIRE(directory.run({"defined.xml", "-o", "c.exr"}).exit_code == 0);
+    CHECK(text(header(directory / "c.exr"), "plumb:integrator") == "path_nee");
 }
 
 TEST_CASE("the header says how to make the image again", "[cli][header]")
 {
-    const SceneFolder folder;
-    REQUIRE(folder.run({(folder / "scene.xml").string(), "-o", "a.exr"}).exit_code == 0);
-    const auto found = header(folder / "a.exr");
+    const SceneDirectory directory;
+    REQUIRE(directory.run({(directory / "scene.xml").string(), "-o", "a.exr"}).exit_code == 0);
+    const auto found = header(directory / "a.exr");
     CHECK(text(found, "Software") == "Plumb " PLUMB_VERSION);
     CHECK(text(found, "plumb:scene") == "scene.xml");
     CHECK(text(found, "plumb:inputHash").size() == 64);
@@ -174,21 +175,21 @@ TEST_CASE("the header says how to make the image again", "[cli][header]")
     CHECK(camera(-1.0, 0.7, 0.0, 0) == Approx(1.0)); // +x is left
 
     // One byte of the input changes the hash.
-    folder.write("other/scene.xml", small_scene() + " ");
-    REQUIRE(folder.run({"other/scene.xml", "-o", "b.exr"}).exit_code == 0);
-    CHECK(text(header(folder / "b.exr"), "plumb:inputHash") != text(found, "plumb:inputHash"));
+    directory.write("other/scene.xml", small_scene() + " ");
+    REQUIRE(directory.run({"other/scene.xml", "-o", "b.exr"}).exit_code == 0);
+    CHECK(text(header(directory / "b.exr"), "plumb:inputHash") != text(found, "plumb:inputHash"));
 
     // No place and no machine.
-    const std::string bytes = read_bytes(folder / "a.exr");
-    CHECK(bytes.find(folder.path().string()) == std::string::npos);
+    const std::string bytes = read_bytes(directory / "a.exr");
+    CHECK(bytes.find(directory.path().string()) == std::string::npos);
 }
 
 TEST_CASE("the peak memory is the program's, not that of the one which started it", "[cli][render]")
 {
     constexpr std::size_t large = 600'000'000;
     const std::vector<char> ours(large, 'x');
-    const SceneFolder folder;
-    const RunResult run = folder.run({"scene.xml", "-o", "a.exr", "--json", "-", "--quiet"});
+    const SceneDirectory directory;
+    const RunResult run = directory.run({"scene.xml", "-o", "a.exr", "--json", "-", "--quiet"});
     REQUIRE(run.exit_code == 0);
     const std::string key = "\"peak_memory_bytes\": ";
     const std::size_t place = run.out.find(key);

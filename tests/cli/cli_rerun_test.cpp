@@ -5,7 +5,7 @@
 #include "cli/picture_header.h"
 #include "cli/small_scene.h"
 #include "cli/text.h"
-#include "plumb/scene_file.h"
+#include "plumb/scene_file/scene_file.h"
 #include "support/catch.h"
 
 #include <cmath>
@@ -38,9 +38,9 @@ TEST_CASE("words for a shell come back as they were", "[unit][text]")
 
 TEST_CASE("an image says how sure it is", "[cli][evidence]")
 {
-    const SceneFolder folder;
-    REQUIRE(folder.run({"scene.xml", "-o", "a.exr", "--spp", "16"}).exit_code == 0);
-    const auto found = header(folder / "a.exr");
+    const SceneDirectory directory;
+    REQUIRE(directory.run({"scene.xml", "-o", "a.exr", "--spp", "16"}).exit_code == 0);
+    const auto found = header(directory / "a.exr");
     CHECK(integer(found, "plumb:biased") == 0);
     CHECK(found.count("plumb:biases") == 0);
     const float rmse = std::get<float>(found.at("plumb:rmse"));
@@ -50,9 +50,9 @@ TEST_CASE("an image says how sure it is", "[cli][evidence]")
     CHECK(rmse < interval[1]);
 
     // The error against a picture with a hundred times the samples is what was foretold, to a third.
-    REQUIRE(folder.run({"scene.xml", "-o", "b.exr", "--spp", "1600", "--seed", "9"}).exit_code == 0);
-    const Image a = read_image(folder / "a.exr", false);
-    const Image b = read_image(folder / "b.exr", false);
+    REQUIRE(directory.run({"scene.xml", "-o", "b.exr", "--spp", "1600", "--seed", "9"}).exit_code == 0);
+    const Image a = read_image(directory / "a.exr", false);
+    const Image b = read_image(directory / "b.exr", false);
     double sum = 0.0;
     for (int y = 0; y < 36; ++y)
         for (int x = 0; x < 48; ++x)
@@ -60,25 +60,25 @@ TEST_CASE("an image says how sure it is", "[cli][evidence]")
                 sum += std::pow(double(a.color(x, y)[c]) - double(b.color(x, y)[c]), 2.0);
     CHECK(std::sqrt(sum / (36 * 48 * 3)) == Approx(rmse).epsilon(0.33));
 
-    REQUIRE(folder.run({"scene.xml", "-o", "c.exr", "--spp", "16", "--no-variance"}).exit_code == 0);
-    CHECK(read_image(folder / "c.exr", false).channel_names() == Names{"R", "G", "B"});
-    REQUIRE(folder.run({"scene.xml", "-o", "d.exr", "--spp", "1"}).exit_code == 0);
-    CHECK(header(folder / "d.exr").count("plumb:rmse") == 0);
-    const Image d = read_image(folder / "d.exr", false);
+    REQUIRE(directory.run({"scene.xml", "-o", "c.exr", "--spp", "16", "--no-variance"}).exit_code == 0);
+    CHECK(read_image(directory / "c.exr", false).channel_names() == Names{"R", "G", "B"});
+    REQUIRE(directory.run({"scene.xml", "-o", "d.exr", "--spp", "1"}).exit_code == 0);
+    CHECK(header(directory / "d.exr").count("plumb:rmse") == 0);
+    const Image d = read_image(directory / "d.exr", false);
     CHECK(d.channel_names()[4] == "variance.R");
     CHECK(std::isnan(d.pixel(3, 3)[4]));
 }
 
 TEST_CASE("what makes a picture biased is in its header and in the log", "[cli][evidence]")
 {
-    const SceneFolder folder;
-    folder.write(
+    const SceneDirectory directory;
+    directory.write(
         "cut.xml",
         small_scene(R"(<integrator type="path_mis"><integer name="maxDepth" value="2"/></integrator>)"));
-    const RunResult run = folder.run({"cut.xml", "-o", "a.exr", "--emitters", "absorb"});
+    const RunResult run = directory.run({"cut.xml", "-o", "a.exr", "--emitters", "absorb"});
     REQUIRE(run.exit_code == 0);
     CHECK_THAT(run.err, ContainsSubstring("biased: light of more than 2 surface bounces is left out\n"));
-    const auto found = header(folder / "a.exr");
+    const auto found = header(directory / "a.exr");
     CHECK(integer(found, "plumb:biased") == 1);
     CHECK(text(found, "plumb:biases") == "light of more than 2 surface bounces is left out");
     CHECK(text(found, "plumb:model") == "emitters absorb the light that meets them");
@@ -86,94 +86,94 @@ TEST_CASE("what makes a picture biased is in its header and in the log", "[cli][
 
 TEST_CASE("a picture is rendered again from its header, to the same bytes", "[cli][rerun]")
 {
-    const SceneFolder folder;
-    folder.write("sub/it's.xml", small_scene());
+    const SceneDirectory directory;
+    directory.write("sub/it's.xml", small_scene());
     const Names words =
         GENERATE(Names{}, Names{"--spp", "3", "--seed", "18446744073709551615"}, Names{"--crop", "5,6,20,11"},
                  Names{"--integrator", "path_nee", "--size", "20x30", "--isa", "sse4.2"},
                  Names{"--no-variance", "--mirror", "on", "--emitters", "absorb", "--dialect", "eth"});
     Names first = {"sub/it's.xml", "-o", "a.exr"};
     first.insert(first.end(), words.begin(), words.end());
-    const RunResult rendered = folder.run(first);
+    const RunResult rendered = directory.run(first);
     INFO(rendered.err);
     REQUIRE(rendered.exit_code == 0);
-    const RunResult again = folder.run({"rerun", "a.exr", "-o", "b.exr", "--threads", "3"});
+    const RunResult again = directory.run({"rerun", "a.exr", "-o", "b.exr", "--threads", "3"});
     INFO(again.err);
     REQUIRE(again.exit_code == 0);
-    CHECK(read_bytes(folder / "a.exr") == read_bytes(folder / "b.exr"));
+    CHECK(read_bytes(directory / "a.exr") == read_bytes(directory / "b.exr"));
     // And the new one is as good.
-    REQUIRE(folder.run({"rerun", "b.exr", "-o", "c.exr", "--quiet"}).exit_code == 0);
-    CHECK(read_bytes(folder / "a.exr") == read_bytes(folder / "c.exr"));
+    REQUIRE(directory.run({"rerun", "b.exr", "-o", "c.exr", "--quiet"}).exit_code == 0);
+    CHECK(read_bytes(directory / "a.exr") == read_bytes(directory / "c.exr"));
 }
 
 TEST_CASE("rerun names what has changed", "[cli][rerun]")
 {
-    const SceneFolder folder;
-    folder.write("scene.xml", scene_with_mesh());
-    folder.write("triangle.obj", triangle);
-    REQUIRE(folder.run({"scene.xml", "-o", "a.exr"}).exit_code == 0);
+    const SceneDirectory directory;
+    directory.write("scene.xml", scene_with_mesh());
+    directory.write("triangle.obj", triangle);
+    REQUIRE(directory.run({"scene.xml", "-o", "a.exr"}).exit_code == 0);
     const auto complaint = [&](const Names& more = {}) {
         Names words = {"rerun", "a.exr", "-o", "b.exr", "--quiet"};
         words.insert(words.end(), more.begin(), more.end());
-        const RunResult run = folder.run(words);
+        const RunResult run = directory.run(words);
         CHECK(run.exit_code == 1);
-        CHECK_FALSE(std::filesystem::exists(folder / "b.exr"));
+        CHECK_FALSE(std::filesystem::exists(directory / "b.exr"));
         return run.err;
     };
-    folder.write("triangle.obj", triangle + "\n");
+    directory.write("triangle.obj", triangle + "\n");
     CHECK(complaint() == "error: the scene is not what it was: 'triangle.obj' has changed\n");
-    folder.write("triangle.obj", triangle);
-    folder.write("scene.xml", scene_with_mesh() + "\n");
+    directory.write("triangle.obj", triangle);
+    directory.write("scene.xml", scene_with_mesh() + "\n");
     CHECK(complaint() == "error: the scene is not what it was: 'scene.xml' has changed\n");
-    folder.write("scene.xml", small_scene());
+    directory.write("scene.xml", small_scene());
     CHECK(complaint() == "error: the scene is not what it was: 'scene.xml' has changed and 'triangle.obj' is "
                          "no longer read\n");
-    folder.write("moved/scene.xml", scene_with_mesh());
-    folder.write("moved/triangle.obj", triangle);
-    std::filesystem::remove(folder / "scene.xml");
+    directory.write("moved/scene.xml", scene_with_mesh());
+    directory.write("moved/triangle.obj", triangle);
+    std::filesystem::remove(directory / "scene.xml");
     CHECK(complaint() ==
           "error: there is no scene file 'scene.xml', neither here nor beside 'a.exr'; say where it is "
           "with --scene\n");
-    REQUIRE(folder.run({"rerun", "a.exr", "-o", "b.exr", "--scene", "moved/scene.xml"}).exit_code == 0);
-    CHECK(read_bytes(folder / "a.exr") == read_bytes(folder / "b.exr"));
+    REQUIRE(directory.run({"rerun", "a.exr", "-o", "b.exr", "--scene", "moved/scene.xml"}).exit_code == 0);
+    CHECK(read_bytes(directory / "a.exr") == read_bytes(directory / "b.exr"));
 }
 
 TEST_CASE("rerun takes pictures of ours, and keeps them", "[cli][rerun]")
 {
-    const SceneFolder folder;
-    write_image(folder / "foreign.exr", Image(2, 2));
-    const RunResult foreign = folder.run({"rerun", "foreign.exr", "-o", "b.exr"});
+    const SceneDirectory directory;
+    write_image(directory / "foreign.exr", Image(2, 2));
+    const RunResult foreign = directory.run({"rerun", "foreign.exr", "-o", "b.exr"});
     CHECK(foreign.exit_code == 1);
     CHECK(foreign.err ==
           "error: the header of 'foreign.exr' does not say how the picture was made; the .exr files "
           "that Plumb renders do\n");
-    REQUIRE(folder.run({"scene.xml", "-o", "a.exr"}).exit_code == 0);
-    const std::string bytes = read_bytes(folder / "a.exr");
-    const RunResult same = folder.run({"rerun", "a.exr", "-o", "a.exr"});
+    REQUIRE(directory.run({"scene.xml", "-o", "a.exr"}).exit_code == 0);
+    const std::string bytes = read_bytes(directory / "a.exr");
+    const RunResult same = directory.run({"rerun", "a.exr", "-o", "a.exr"});
     CHECK(same.exit_code == 1);
     CHECK(same.err == "error: cannot write 'a.exr': it is the picture to be rendered again\n");
-    CHECK(read_bytes(folder / "a.exr") == bytes);
-    CHECK(folder.run({"rerun", "a.exr"}).exit_code == 2);
-    CHECK(folder.run({"rerun", "none.exr", "-o", "b.exr"}).exit_code == 1);
+    CHECK(read_bytes(directory / "a.exr") == bytes);
+    CHECK(directory.run({"rerun", "a.exr"}).exit_code == 2);
+    CHECK(directory.run({"rerun", "none.exr", "-o", "b.exr"}).exit_code == 1);
 }
 
 TEST_CASE("a picture that was made when the scene language meant something else is not made again",
           "[cli][rerun]")
 {
-    const SceneFolder folder;
+    const SceneDirectory directory;
     const auto picture_of = [&](const std::string& more, const Names& options = {}) {
         std::string scene = small_scene();
-        folder.write("scene.xml", scene.insert(scene.find("</scene>"), more));
+        directory.write("scene.xml", scene.insert(scene.find("</scene>"), more));
         Names words = {"scene.xml", "-o", "new.exr", "--spp", "1", "--quiet"};
         words.insert(words.end(), options.begin(), options.end());
-        REQUIRE(folder.run(words).exit_code == 0);
+        REQUIRE(directory.run(words).exit_code == 0);
         // Plumb 0.1 wrote no version of the language.
-        Image image = read_image(folder / "new.exr", false);
-        CHECK(integer(header(folder / "new.exr"), "plumb:language") == language_version);
+        Image image = read_image(directory / "new.exr", false);
+        CHECK(integer(header(directory / "new.exr"), "plumb:language") == language_version);
         std::erase_if(image.metadata, [](const auto& entry) { return entry.first == "plumb:language"; });
-        write_image(folder / "old.exr", image);
-        CHECK(folder.run({"rerun", "new.exr", "-o", "again.exr", "--quiet"}).exit_code == 0);
-        return folder.run({"rerun", "old.exr", "-o", "again.exr", "--quiet"});
+        write_image(directory / "old.exr", image);
+        CHECK(directory.run({"rerun", "new.exr", "-o", "again.exr", "--quiet"}).exit_code == 0);
+        return directory.run({"rerun", "old.exr", "-o", "again.exr", "--quiet"});
     };
     const std::string sun =
         R"(<emitter type="directional"><vector name="direction" value="0,-1,0"/></emitter>)";

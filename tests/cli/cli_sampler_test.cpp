@@ -11,11 +11,11 @@ using namespace plumb;
 
 namespace {
 
-RunResult run_with(const SceneFolder& folder, const std::string& sampler, const Names& words)
+RunResult run_with(const SceneDirectory& directory, const std::string& sampler, const Names& words)
 {
     Names all = {"scene.xml", "--size", "16x12", "--sampler", sampler};
     all.insert(all.end(), words.begin(), words.end());
-    return folder.run(all);
+    return directory.run(all);
 }
 
 const std::string total_has_changed =
@@ -25,58 +25,59 @@ const std::string total_has_changed =
 
 TEST_CASE("--sampler takes the scene's number of samples, and error bars say what they are", "[cli][sampler]")
 {
-    const SceneFolder folder;
+    const SceneDirectory directory;
     for (const std::string sampler : {"sobol", "stratified"}) {
-        const RunResult result = run_with(folder, sampler, {"-o", "a.exr", "--json", "a.json"});
+        const RunResult result = run_with(directory, sampler, {"-o", "a.exr", "--json", "a.json"});
         REQUIRE(result.exit_code == 0);
         CHECK_THAT(result.err, ContainsSubstring("noise: rmse at most "));
-        CHECK_THAT(read_bytes(folder / "a.json"), ContainsSubstring("\"upper_bound\": true"));
-        const auto found = header(folder / "a.exr");
+        CHECK_THAT(read_bytes(directory / "a.json"), ContainsSubstring("\"upper_bound\": true"));
+        const auto found = header(directory / "a.exr");
         CHECK(text(found, "plumb:sampler") == sampler);
         CHECK(text(found, "plumb:errorBars") == "upper bounds");
         CHECK(integer(found, "plumb:samplesPerPixel") == 4);
         CHECK(found.count("plumb:samplerTotal") == (sampler == "stratified" ? 1 : 0));
     }
-    const RunResult independent = run_with(folder, "independent", {"-o", "a.exr", "--json", "a.json"});
+    const RunResult independent = run_with(directory, "independent", {"-o", "a.exr", "--json", "a.json"});
     CHECK_THAT(independent.err, ContainsSubstring("noise: rmse ") && !ContainsSubstring("at most"));
-    CHECK_THAT(read_bytes(folder / "a.json"), ContainsSubstring("\"upper_bound\": false"));
-    CHECK(header(folder / "a.exr").count("plumb:errorBars") == 0);
+    CHECK_THAT(read_bytes(directory / "a.json"), ContainsSubstring("\"upper_bound\": false"));
+    CHECK(header(directory / "a.exr").count("plumb:errorBars") == 0);
 }
 
 TEST_CASE("sobol is gone on with to any number of samples", "[cli][sampler][checkpoint]")
 {
-    const SceneFolder folder;
-    REQUIRE(run_with(folder, "sobol", {"-o", "whole.exr", "--spp", "21"}).exit_code == 0);
-    REQUIRE(run_with(folder, "sobol", {"-o", "a.exr", "--spp", "5", "--checkpoint", "c.exr"}).exit_code == 0);
-    REQUIRE(run_with(folder, "sobol", {"-o", "a.exr", "--spp", "21", "--checkpoint", "c.exr", "--resume"})
+    const SceneDirectory directory;
+    REQUIRE(run_with(directory, "sobol", {"-o", "whole.exr", "--spp", "21"}).exit_code == 0);
+    REQUIRE(run_with(directory, "sobol", {"-o", "a.exr", "--spp", "5", "--checkpoint", "c.exr"}).exit_code ==
+            0);
+    REQUIRE(run_with(directory, "sobol", {"-o", "a.exr", "--spp", "21", "--checkpoint", "c.exr", "--resume"})
                 .exit_code == 0);
-    CHECK(read_bytes(folder / "a.exr") == read_bytes(folder / "whole.exr"));
-    REQUIRE(folder.run({"rerun", "a.exr", "-o", "again.exr"}).exit_code == 0);
-    CHECK(read_bytes(folder / "again.exr") == read_bytes(folder / "whole.exr"));
+    CHECK(read_bytes(directory / "a.exr") == read_bytes(directory / "whole.exr"));
+    REQUIRE(directory.run({"rerun", "a.exr", "-o", "again.exr"}).exit_code == 0);
+    CHECK(read_bytes(directory / "again.exr") == read_bytes(directory / "whole.exr"));
 }
 
 TEST_CASE("parts by any sampler make the picture", "[cli][sampler][merge]")
 {
-    const SceneFolder folder;
+    const SceneDirectory directory;
     const std::string sampler = GENERATE(as<std::string>{}, "sobol", "stratified");
     const std::string by = GENERATE(as<std::string>{}, "tiles", "samples");
-    REQUIRE(run_with(folder, sampler, {"-o", "whole.exr", "--spp", "11"}).exit_code == 0);
+    REQUIRE(run_with(directory, sampler, {"-o", "whole.exr", "--spp", "11"}).exit_code == 0);
     for (const std::string part : {"1", "2", "3"})
-        REQUIRE(run_with(folder, sampler,
+        REQUIRE(run_with(directory, sampler,
                          {"--spp", "11", "--part", part + "/3", "--part-by", by, "-o", part + ".exr"})
                     .exit_code == 0);
-    REQUIRE(folder.run({"merge", "3.exr", "1.exr", "2.exr", "-o", "merged.exr"}).exit_code == 0);
-    CHECK(read_bytes(folder / "merged.exr") == read_bytes(folder / "whole.exr"));
+    REQUIRE(directory.run({"merge", "3.exr", "1.exr", "2.exr", "-o", "merged.exr"}).exit_code == 0);
+    CHECK(read_bytes(directory / "merged.exr") == read_bytes(directory / "whole.exr"));
 }
 
 TEST_CASE("a picture by stratified is not gone on with past its total", "[cli][sampler][checkpoint]")
 {
-    const SceneFolder folder;
+    const SceneDirectory directory;
     REQUIRE(
-        run_with(folder, "stratified", {"-o", "a.exr", "--spp", "4", "--checkpoint", "c.exr"}).exit_code ==
+        run_with(directory, "stratified", {"-o", "a.exr", "--spp", "4", "--checkpoint", "c.exr"}).exit_code ==
         0);
     const auto refusal = [&](const Names& words) {
-        const RunResult result = folder.run(words);
+        const RunResult result = directory.run(words);
         CHECK(result.exit_code == 1);
         return result.err;
     };
@@ -84,15 +85,15 @@ TEST_CASE("a picture by stratified is not gone on with past its total", "[cli][s
                         "--checkpoint", "c.exr",  "--resume", "-o",        "b.exr",      "--quiet"};
     CHECK(refusal(more) == "error: cannot go on from 'c.exr': " + total_has_changed + "4 and is 9\n");
 
-    REQUIRE(run_with(folder, "stratified", {"--spp", "4", "--part", "1/2", "-o", "p.exr"}).exit_code == 0);
-    REQUIRE(run_with(folder, "stratified", {"--spp", "9", "--part", "2/2", "-o", "q.exr"}).exit_code == 0);
+    REQUIRE(run_with(directory, "stratified", {"--spp", "4", "--part", "1/2", "-o", "p.exr"}).exit_code == 0);
+    REQUIRE(run_with(directory, "stratified", {"--spp", "9", "--part", "2/2", "-o", "q.exr"}).exit_code == 0);
     CHECK(refusal({"merge", "p.exr", "q.exr", "-o", "m.exr"}) ==
           "error: 'p.exr' and 'q.exr' are not of one picture: " + total_has_changed + "4 and is 9\n");
 
     CHECK(refusal({"scene.xml", "--sampler", "stratified", "--time", "1", "-o", "t.exr", "--quiet"}) ==
           "error: the sampler 'stratified' must know how many samples a pixel gets in all: with --time and "
           "--target-error give the most by --spp, or take --sampler sobol\n");
-    CHECK(run_with(folder, "stratified", {"--time", "1h", "--spp", "3", "-o", "t.exr"}).exit_code == 0);
+    CHECK(run_with(directory, "stratified", {"--time", "1h", "--spp", "3", "-o", "t.exr"}).exit_code == 0);
 
     CHECK(
         refusal({"replay", "scene.xml", "--sampler", "stratified", "--pixel", "1,1", "--sample", "4",
@@ -103,12 +104,13 @@ TEST_CASE("a picture by stratified is not gone on with past its total", "[cli][s
 
 TEST_CASE("samplers agree", "[cli][sampler][agree]")
 {
-    const SceneFolder folder;
+    const SceneDirectory directory;
     std::string scene = small_scene();
     const std::string glass = "dielectric"; // whose caustic is found by too few of these samples
-    folder.write("scene.xml", scene.replace(scene.find(glass), glass.size(), "diffuse"));
-    const RunResult result = folder.run({"agree", "scene.xml", "--integrators", "path_mis", "--samplers",
-                                         "independent,sobol,stratified", "--size", "16x12", "--spp", "128"});
+    directory.write("scene.xml", scene.replace(scene.find(glass), glass.size(), "diffuse"));
+    const RunResult result =
+        directory.run({"agree", "scene.xml", "--integrators", "path_mis", "--samplers",
+                       "independent,sobol,stratified", "--size", "16x12", "--spp", "128"});
     CHECK(result.exit_code == 0);
     CHECK_THAT(result.out,
                ContainsSubstring("  path_mis with sobol and path_mis with stratified: agree, p "));

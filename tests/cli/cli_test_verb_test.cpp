@@ -70,9 +70,9 @@ TEST_CASE("chi2tests and the options of scenes", "[cli][test_verb]")
 
 TEST_CASE("test reports in JSON, the same for any number of threads", "[cli][test_verb]")
 {
-    const TempFolder folder;
+    const TempDirectory directory;
     const auto json = [&](const std::string& threads) {
-        const std::string file = (folder / ("report" + threads)).string();
+        const std::string file = (directory / ("report" + threads)).string();
         const RunResult result = run_tests_of({"furnace.xml", "wrong_reference.xml", "chi2.xml", "--json",
                                                file, "--threads", threads, "--seed", "9", "--quiet"});
         CHECK(result.exit_code == 3);

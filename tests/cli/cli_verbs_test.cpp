@@ -4,18 +4,19 @@
 
 #include "build_paths.h"
 #include "cli/small_scene.h"
-#include "plumb/scene_file.h"
+#include "plumb/scene_file/scene_file.h"
 #include "support/catch.h"
 
 using namespace plumb;
 
 TEST_CASE("--json reports the run", "[cli][json]")
 {
-    const SceneFolder folder;
-    const RunResult result = folder.run({"scene.xml", "-o", "a.exr", "--json", "a.json", "--threads", "2"});
+    const SceneDirectory directory;
+    const RunResult result =
+        directory.run({"scene.xml", "-o", "a.exr", "--json", "a.json", "--threads", "2"});
     REQUIRE(result.exit_code == 0);
-    CHECK(folder.files() == Names{"a.exr", "a.json", "scene.xml"});
-    const std::string json = read_bytes(folder / "a.json");
+    CHECK(directory.files() == Names{"a.exr", "a.json", "scene.xml"});
+    const std::string json = read_bytes(directory / "a.json");
     for (const char* part :
          {"\"scene\": \"scene.xml\"", "\"name\": \"plumb\"", "\"integrator\": \"path_mis\"", "\"spp\": 4",
           "\"resolution\": [\n    48,\n    36\n  ]", "\"crop\": null", "\"camera\": 6912,", "\"threads\": 2",
@@ -24,7 +25,7 @@ TEST_CASE("--json reports the run", "[cli][json]")
 
     SECTION("to standard output")
     {
-        const RunResult printed = folder.run({"scene.xml", "-o", "b.exr", "--json", "-", "--quiet"});
+        const RunResult printed = directory.run({"scene.xml", "-o", "b.exr", "--json", "-", "--quiet"});
         CHECK(printed.exit_code == 0);
         CHECK(printed.err.empty());
         CHECK(printed.out.starts_with("{\n"));
@@ -33,7 +34,7 @@ TEST_CASE("--json reports the run", "[cli][json]")
     SECTION("standard output that is full is an error")
     {
         const RunResult full =
-            folder.run({"scene.xml", "-o", "b.exr", "--json", "-", "--quiet"}, "/dev/full");
+            directory.run({"scene.xml", "-o", "b.exr", "--json", "-", "--quiet"}, "/dev/full");
         CHECK(full.exit_code == 1);
         CHECK(full.err == "error: cannot write to standard output: No space left on device\n");
     }
@@ -41,14 +42,14 @@ TEST_CASE("--json reports the run", "[cli][json]")
 
 TEST_CASE("--quiet prints nothing, --verbose more", "[cli][log]")
 {
-    const SceneFolder folder;
-    const RunResult quiet = folder.run({"scene.xml", "-o", "a.exr", "--quiet"});
+    const SceneDirectory directory;
+    const RunResult quiet = directory.run({"scene.xml", "-o", "a.exr", "--quiet"});
     CHECK(quiet.exit_code == 0);
     CHECK(quiet.out.empty());
     CHECK(quiet.err.empty());
-    CHECK(folder.run({"none.xml", "--quiet"}).err == "error: there is no scene file 'none.xml'\n");
+    CHECK(directory.run({"none.xml", "--quiet"}).err == "error: there is no scene file 'none.xml'\n");
 
-    const RunResult verbose = folder.run({"scene.xml", "-o", "a.exr", "--verbose"});
+    const RunResult verbose = directory.run({"scene.xml", "-o", "a.exr", "--verbose"});
     CHECK(verbose.exit_code == 0);
     CHECK(verbose.out.empty());
     for (const char* fact :
@@ -60,14 +61,14 @@ TEST_CASE("--quiet prints nothing, --verbose more", "[cli][log]")
 TEST_CASE("samples that were left out are counted, and can be replayed", "[cli][log]")
 {
     // A lamp that fills the view and is brighter than the film's range, 2^37 = 1.4e11.
-    const SceneFolder folder;
-    folder.write("too bright.xml", R"(<scene dialect="plumb"><integrator type="path_nee"/>
+    const SceneDirectory directory;
+    directory.write("too bright.xml", R"(<scene dialect="plumb"><integrator type="path_nee"/>
         <camera type="perspective"><integer name="width" value="3"/><integer name="height" value="2"/></camera>
         <shape type="rectangle"><point name="center" value="0,0,5"/><vector name="normal" value="0,0,-1"/>
             <float name="width" value="100"/><float name="height" value="100"/>
             <emitter type="area"><color name="radiance" value="1e12,1,1"/></emitter></shape></scene>)");
     const RunResult result =
-        folder.run({"too bright.xml", "-o", "a.exr", "--spp", "4", "--crop", "1,0,2,2", "--json", "-"});
+        directory.run({"too bright.xml", "-o", "a.exr", "--spp", "4", "--crop", "1,0,2,2", "--json", "-"});
     CHECK(result.exit_code == 0);
     const std::string first = "sample 0 of pixel 1,0 (out of the film's range: 1000000000000 1 1)";
     const std::string words = " replay 'too bright.xml' --pixel 1,0 --sample 0 --spp 4";
@@ -75,18 +76,19 @@ TEST_CASE("samples that were left out are counted, and can be replayed", "[cli][
                                              "; to see its path:\n    renderer" + words + "\n"));
     CHECK_THAT(result.out, ContainsSubstring("\"count\": 16,"));
     CHECK_THAT(result.out, ContainsSubstring("\"why\": \"out of the film's range\""));
-    const RunResult info = folder.run({"info", "a.exr"});
+    const RunResult info = directory.run({"info", "a.exr"});
     CHECK_THAT(info.out, ContainsSubstring(first));
 
-    const RunResult replay = run_program({"/bin/sh", "-c", "\"$0\"" + words, PLUMB_RENDERER}, folder.path());
+    const RunResult replay =
+        run_program({"/bin/sh", "-c", "\"$0\"" + words, PLUMB_RENDERER}, directory.path());
     CHECK(replay.exit_code == 0);
     CHECK_THAT(replay.out, ContainsSubstring("\nverdict   out of the film's range\n"));
 }
 
 TEST_CASE("types lists every plugin and prints manuals", "[cli][types]")
 {
-    const SceneFolder folder;
-    const RunResult list = folder.run({"types"});
+    const SceneDirectory directory;
+    const RunResult list = directory.run({"types"});
     CHECK(list.exit_code == 0);
     CHECK(list.err.empty());
     REQUIRE(known_types().size() > 40);
@@ -95,7 +97,7 @@ TEST_CASE("types lists every plugin and prints manuals", "[cli][types]")
         CHECK_THAT(list.out, ContainsSubstring("\n  " + std::string(type.name) + " "));
         CHECK_FALSE(type.manual.empty());
     }
-    const RunResult manual = folder.run({"types", "diffuse"});
+    const RunResult manual = directory.run({"types", "diffuse"});
     CHECK(manual.exit_code == 0);
     CHECK_THAT(manual.out, ContainsSubstring("bsdf 'diffuse'\n"));
     CHECK_THAT(manual.out, ContainsSubstring("    albedo "));
@@ -103,9 +105,9 @@ TEST_CASE("types lists every plugin and prints manuals", "[cli][types]")
 
 TEST_CASE("info prints what the header knows", "[cli][info]")
 {
-    const SceneFolder folder;
-    REQUIRE(folder.run({"scene.xml", "-o", "a.exr", "--crop", "1,2,30,20"}).exit_code == 0);
-    const RunResult info = folder.run({"info", "a.exr"});
+    const SceneDirectory directory;
+    REQUIRE(directory.run({"scene.xml", "-o", "a.exr", "--crop", "1,2,30,20"}).exit_code == 0);
+    const RunResult info = directory.run({"info", "a.exr"});
     CHECK(info.exit_code == 0);
     CHECK(info.err.empty());
     for (const char* part :
@@ -113,39 +115,39 @@ TEST_CASE("info prints what the header knows", "[cli][info]")
           "plumb:scene", "plumb:inputHash", "plumb:integrator", " path_mis\n", "worldToCamera"})
         CHECK_THAT(info.out, ContainsSubstring(part));
 
-    const RunResult none = folder.run({"info", "none.exr"});
+    const RunResult none = directory.run({"info", "none.exr"});
     CHECK(none.exit_code == 1);
     CHECK_THAT(none.err, ContainsSubstring("none.exr"));
-    CHECK(folder.run({"info", "scene.xml"}).exit_code == 1);
+    CHECK(directory.run({"info", "scene.xml"}).exit_code == 1);
 }
 
 TEST_CASE("replay prints the path of one sample", "[cli][replay]")
 {
-    const SceneFolder folder;
+    const SceneDirectory directory;
     const Names words = {"replay", "scene.xml", "--pixel", "24,30", "--sample", "3", "--quiet"};
-    const RunResult replay = folder.run(words);
+    const RunResult replay = directory.run(words);
     INFO(replay.err);
     REQUIRE(replay.exit_code == 0);
     CHECK_THAT(replay.out, ContainsSubstring("sample 3 of pixel 24,30, seed 0, integrator path_mis\n"));
     for (const char* part : {"\nray ", "\nhit ", "\nvalue ", "\nweight ", "\nverdict   accepted\n"})
         CHECK_THAT(replay.out, ContainsSubstring(part));
-    CHECK(folder.run(words).out == replay.out);
+    CHECK(directory.run(words).out == replay.out);
 
     Names other = words;
     other.insert(other.end(), {"--seed", "1"});
-    CHECK(folder.run(other).out != replay.out);
+    CHECK(directory.run(other).out != replay.out);
     const RunResult outside =
-        folder.run({"replay", "scene.xml", "--pixel", "48,0", "--sample", "0", "--quiet"});
+        directory.run({"replay", "scene.xml", "--pixel", "48,0", "--sample", "0", "--quiet"});
     CHECK(outside.exit_code == 1);
     CHECK(outside.err == "error: pixel 48,0 is not inside the picture of 48x36 pixels\n");
-    CHECK(folder.files() == Names{"scene.xml"});
+    CHECK(directory.files() == Names{"scene.xml"});
 }
 
 TEST_CASE("help and version go to standard output", "[cli][help]")
 {
-    const SceneFolder folder;
-    CHECK(folder.run({"--version"}).out == "Plumb " PLUMB_VERSION "\n");
-    const RunResult help = folder.run({"--help"});
+    const SceneDirectory directory;
+    CHECK(directory.run({"--version"}).out == "Plumb " PLUMB_VERSION "\n");
+    const RunResult help = directory.run({"--help"});
     CHECK(help.exit_code == 0);
     CHECK(help.err.empty());
     CHECK(help.out.starts_with("usage: renderer SCENE"));
@@ -153,9 +155,9 @@ TEST_CASE("help and version go to standard output", "[cli][help]")
 
 TEST_CASE("closed streams and pipes do no harm", "[cli][console]")
 {
-    const SceneFolder folder;
+    const SceneDirectory directory;
     const auto shell = [&](const std::string& command) {
-        return run_program({"/bin/sh", "-c", command, PLUMB_RENDERER}, folder.path());
+        return run_program({"/bin/sh", "-c", command, PLUMB_RENDERER}, directory.path());
     };
     // The reader is gone before anything is written: no signal, no message.
     const RunResult pipe = shell("{ sleep 0.2; \"$0\" types; echo exit $? >&2; } | true");
@@ -163,24 +165,24 @@ TEST_CASE("closed streams and pipes do no harm", "[cli][console]")
     CHECK(shell("\"$0\" types >&-").exit_code == 1);
 
     // With standard error closed, the log must not end up in the image.
-    REQUIRE(folder.run({"scene.xml", "-o", "a.exr"}).exit_code == 0);
+    REQUIRE(directory.run({"scene.xml", "-o", "a.exr"}).exit_code == 0);
     CHECK(shell("\"$0\" scene.xml -o b.exr --verbose >&- 2>&- <&-").exit_code == 0);
-    CHECK(read_bytes(folder / "a.exr") == read_bytes(folder / "b.exr"));
+    CHECK(read_bytes(directory / "a.exr") == read_bytes(directory / "b.exr"));
 }
 
 TEST_CASE("--json says what memory is for", "[cli][json]")
 {
-    const SceneFolder folder;
+    const SceneDirectory directory;
     std::string mesh = "vt 0 0\n";
     constexpr int triangles = 100000;
     for (int i = 0; i < triangles; ++i)
         mesh += "v " + std::to_string(i) + " 0 0\nv 0 1 0\nv 0 0 1\nf -3/1 -2/1 -1/1\n";
-    folder.write("mesh.obj", mesh);
+    directory.write("mesh.obj", mesh);
     std::string scene = small_scene();
     scene.insert(scene.rfind("</scene>"),
                  R"(<mesh type="obj"><string name="filename" value="mesh.obj"/></mesh>)");
-    folder.write("scene.xml", scene);
-    const RunResult run = folder.run({"scene.xml", "-o", "a.exr", "--json", "-", "--quiet"});
+    directory.write("scene.xml", scene);
+    const RunResult run = directory.run({"scene.xml", "-o", "a.exr", "--json", "-", "--quiet"});
     REQUIRE(run.exit_code == 0);
     const auto number = [&](const std::string& key) {
         const std::size_t at = run.out.find("\"" + key + "\": ");
@@ -200,32 +202,32 @@ TEST_CASE("--json says what memory is for", "[cli][json]")
 
 TEST_CASE("new writes a scene that renders as it is", "[cli][new]")
 {
-    const TempFolder folder;
-    const RunResult written = run_renderer({"new", "my scene.xml"}, folder.path());
+    const TempDirectory directory;
+    const RunResult written = run_renderer({"new", "my scene.xml"}, directory.path());
     CHECK(written.exit_code == 0);
     CHECK(written.out.empty());
     CHECK(written.err == "'my scene.xml': written; to see it:\n    renderer 'my scene.xml'\n");
-    const std::string text = read_bytes(folder / "my scene.xml");
+    const std::string text = read_bytes(directory / "my scene.xml");
     CHECK_THAT(text, ContainsSubstring("<scene dialect=\"plumb\">") && ContainsSubstring("<!--"));
-    const RunResult checked = run_renderer({"check", "my scene.xml"}, folder.path());
+    const RunResult checked = run_renderer({"check", "my scene.xml"}, directory.path());
     CHECK(checked.exit_code == 0);
     CHECK_THAT(checked.out, ContainsSubstring("nothing is wrong or doubtful"));
     const RunResult rendered =
-        run_renderer({"my scene.xml", "-o", "a.exr", "--spp", "2", "--size", "48x32"}, folder.path());
+        run_renderer({"my scene.xml", "-o", "a.exr", "--spp", "2", "--size", "48x32"}, directory.path());
     CHECK(rendered.exit_code == 0);
     CHECK(rendered.err.find("warning") == std::string::npos);
 
-    // What is there stays there, file or folder or link.
-    const RunResult again = run_renderer({"new", "my scene.xml"}, folder.path());
+    // What is there stays there, file or directory or link.
+    const RunResult again = run_renderer({"new", "my scene.xml"}, directory.path());
     CHECK(again.exit_code == 1);
     CHECK(again.err == "error: 'my scene.xml' is there already, and is left as it is; name another file\n");
-    CHECK(read_bytes(folder / "my scene.xml") == text);
-    std::filesystem::create_symlink("elsewhere", folder / "link.xml");
-    CHECK(run_renderer({"new", "link.xml"}, folder.path()).exit_code == 1);
-    CHECK_FALSE(std::filesystem::exists(folder / "elsewhere"));
-    CHECK(run_renderer({"new", "none/a.xml"}, folder.path()).err ==
+    CHECK(read_bytes(directory / "my scene.xml") == text);
+    std::filesystem::create_symlink("elsewhere", directory / "link.xml");
+    CHECK(run_renderer({"new", "link.xml"}, directory.path()).exit_code == 1);
+    CHECK_FALSE(std::filesystem::exists(directory / "elsewhere"));
+    CHECK(run_renderer({"new", "none/a.xml"}, directory.path()).err ==
           "error: cannot write 'none/a.xml': No such file or directory\n");
-    CHECK(run_renderer({"new"}, folder.path()).exit_code == 2);
+    CHECK(run_renderer({"new"}, directory.path()).exit_code == 2);
 }
 
 TEST_CASE("types says what scene an example is part of", "[cli][types]")

@@ -3,7 +3,7 @@
 
 // What a picture's file says of it.
 
-#include "plumb/image.h"
+#include "plumb/image/image.h"
 
 #include <map>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// A scene that renders in milliseconds, in a folder of its own.
+// A scene that renders in milliseconds, in a directory of its own.
 
 #include "support/run.h"
 
@@ -69,9 +69,9 @@ inline std::string small_lamp_scene()
     <emitter type="area"><color name="radiance" value="9999,9999,9999"/>)");
 }
 
-// A folder with the small scene in scene.xml.
-struct SceneFolder : TempFolder {
-    SceneFolder() { write("scene.xml", small_scene()); }
+// A directory with the small scene in scene.xml.
+struct SceneDirectory : TempDirectory {
+    SceneDirectory() { write("scene.xml", small_scene()); }
     RunResult run(const Names& words, const std::string& out = "") const
     {
         return run_renderer(words, path(), out);

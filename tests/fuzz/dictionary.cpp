@@ -6,7 +6,7 @@
 #include "cli/option_rows.h"
 #include "cli/verbs.h"
 #include "fuzz/small_scene.h"
-#include "plumb/scene_file.h"
+#include "plumb/scene_file/scene_file.h"
 #include "scene_file/catalog.h"
 
 #include <algorithm>

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path make_folder()
+fs::path make_directory()
 {
     std::error_code ignored;
     const fs::path memory = "/dev/shm";
@@ -38,15 +38,15 @@ void check_messages(const SceneError& error)
 
 } // namespace
 
-const fs::path& folder()
+const fs::path& directory()
 {
-    static const fs::path result = make_folder();
+    static const fs::path result = make_directory();
     return result;
 }
 
 fs::path write_file(std::string_view name, std::string_view content)
 {
-    fs::path path = folder() / name;
+    fs::path path = directory() / name;
     std::ofstream file(path, std::ios::binary);
     file << content;
     return path;

@@ -3,7 +3,7 @@
 
 // What the fuzz targets share.
 
-#include "plumb/error.h"
+#include "plumb/base/error.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -15,9 +15,9 @@
 namespace plumb::fuzz {
 
 // Of this process alone, in memory where the system has a place for that; gone when the process ends.
-const std::filesystem::path& folder();
+const std::filesystem::path& directory();
 
-// A file in that folder.
+// A file in that directory.
 std::filesystem::path write_file(std::string_view name, std::string_view content);
 
 // Anything else is a finding: the process ends, and libFuzzer keeps the input.

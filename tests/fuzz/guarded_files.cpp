@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 
-// Stands in for src/io/temporary_file.cpp: files are written into the target's own folder and nowhere else, whatever an
+// Stands in for src/base/temporary_file.cpp: files are written into the target's own directory and nowhere else, whatever an
 // input asks for. To ask for it is a finding.
 
+#include "base/temporary_file.h"
 #include "fuzz/fuzz.h"
-#include "io/temporary_file.h"
-#include "plumb/error.h"
+#include "plumb/base/error.h"
 
 #include <fmt/format.h>
 
@@ -28,7 +28,7 @@ std::filesystem::path unfinished_name(const std::filesystem::path& path, std::st
 TemporaryFile::TemporaryFile(const std::filesystem::path& target)
     : target_(target), final_(target), path_(target)
 {
-    fuzz::expect(target.parent_path() == fuzz::folder(),
+    fuzz::expect(target.parent_path() == fuzz::directory(),
                  "a file is written where the input says: " + target.string());
     path_ += ".part";
     descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
@@ -60,6 +60,6 @@ void TemporaryFile::take_place()
     std::filesystem::rename(path_, final_);
 }
 
-void flush_folder_of(const std::filesystem::path&) {}
+void flush_directory_of(const std::filesystem::path&) {}
 
 } // namespace plumb

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 
-// Stands in for src/core/parallel.cpp: in order, so that one input always does the same, and one target takes one processor.
+// Stands in for src/base/parallel.cpp: in order, so that one input always does the same, and one target takes one processor.
 
-#include "core/parallel.h"
+#include "base/parallel.h"
 
 namespace plumb {
 

@@ -17,7 +17,7 @@
 //
 // A line `next` ends a picture that is followed by another.
 
-#include "io/image_words.h"
+#include "image/image_words.h"
 
 #include <string>
 #include <string_view>

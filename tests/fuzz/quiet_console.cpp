@@ -2,8 +2,8 @@
 
 // Stands in for src/cli/console.cpp: what the program says is looked at, and not printed.
 
+#include "base/visible_text.h"
 #include "cli/console.h"
-#include "core/visible_text.h"
 #include "fuzz/fuzz.h"
 
 namespace plumb {

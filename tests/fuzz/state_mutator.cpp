@@ -3,7 +3,7 @@
 
 #include "fuzz/fuzz.h"
 #include "fuzz/picture_text.h"
-#include "plumb/state_file.h"
+#include "plumb/render/state_file.h"
 #include "render/state_hash.h"
 
 #include <algorithm>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 
-// Stands in for src/io/image_module.cpp: the door to pictures, with picture_text.h behind it instead of OpenImageIO, which
+// Stands in for src/image/image_module.cpp: the door to pictures, with picture_text.h behind it instead of OpenImageIO, which
 // takes a quarter of a second to load, is not compiled for fuzzing, and has bugs of its own to be found by others.
 
 #include "fuzz/picture_text.h"
-#include "io/image_module.h"
-#include "plumb/error.h"
+#include "image/image_module.h"
+#include "plumb/base/error.h"
 
 #include <algorithm>
 #include <bit>
@@ -30,7 +30,7 @@ private:
     std::vector<float> values_;
 };
 
-// What src/io/oiio and the libraries below it refuse, and what takes too long.
+// What src/image/oiio and the libraries below it refuse, and what takes too long.
 void check(const PixelRect& data, std::size_t channels)
 {
     if (data.width < 1 || data.height < 1 || channels < 1) throw Error("there is nothing in the picture");

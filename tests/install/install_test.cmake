@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
 # Installs a build and moves it somewhere else; there the program renders, and a project finds and uses the library.
-# Arguments, as -DNAME=VALUE: BUILD (folder), SCENE (file), COMPILER and its FLAGS.
+# Arguments, as -DNAME=VALUE: BUILD (directory), SCENE (file), COMPILER and its FLAGS.
 
-set(folder "${BUILD}/install_test")
-file(REMOVE_RECURSE "${folder}")
+set(directory "${BUILD}/install_test")
+file(REMOVE_RECURSE "${directory}")
 
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
@@ -18,14 +18,14 @@ function(check_picture file)
   endif()
 endfunction()
 
-run("${CMAKE_COMMAND}" --install "${BUILD}" --prefix "${folder}/installed")
-file(RENAME "${folder}/installed" "${folder}/moved")
+run("${CMAKE_COMMAND}" --install "${BUILD}" --prefix "${directory}/installed")
+file(RENAME "${directory}/installed" "${directory}/moved")
 
-run("${folder}/moved/bin/renderer" "${SCENE}" --size 16x12 --spp 2 --quiet -o "${folder}/program.exr")
-check_picture("${folder}/program.exr")
+run("${directory}/moved/bin/renderer" "${SCENE}" --size 16x12 --spp 2 --quiet -o "${directory}/program.exr")
+check_picture("${directory}/program.exr")
 
-run("${CMAKE_COMMAND}" -S "${CMAKE_CURRENT_LIST_DIR}" -B "${folder}/consumer" -G Ninja
-  "-DCMAKE_PREFIX_PATH=${folder}/moved" "-DCMAKE_CXX_COMPILER=${COMPILER}" "-DCMAKE_CXX_FLAGS=${FLAGS}")
-run("${CMAKE_COMMAND}" --build "${folder}/consumer")
-run("${folder}/consumer/consumer" "${SCENE}" "${folder}/consumer.exr")
-check_picture("${folder}/consumer.exr")
+run("${CMAKE_COMMAND}" -S "${CMAKE_CURRENT_LIST_DIR}" -B "${directory}/consumer" -G Ninja
+  "-DCMAKE_PREFIX_PATH=${directory}/moved" "-DCMAKE_CXX_COMPILER=${COMPILER}" "-DCMAKE_CXX_FLAGS=${FLAGS}")
+run("${CMAKE_COMMAND}" --build "${directory}/consumer")
+run("${directory}/consumer/consumer" "${SCENE}" "${directory}/consumer.exr")
+check_picture("${directory}/consumer.exr")

@@ -2,8 +2,8 @@
 
 // Renders a scene into a picture: consumer SCENE PICTURE
 
-#include "plumb/image.h"
-#include "plumb/scene_file.h"
+#include "plumb/image/image.h"
+#include "plumb/scene_file/scene_file.h"
 
 #include <cstdio>
 #include <exception>

@@ -2,12 +2,12 @@
 
 // Whether Embree builds trees that give the same hits, whatever the threads.
 
-#include "core/parallel.h"
-#include "plumb/scene.h"
+#include "base/parallel.h"
+#include "plumb/scene/scene.h"
 #include "support/catch.h"
 #include "support/params.h"
 #include "support/random.h"
-#include "support/temp_folder.h"
+#include "support/temp_directory.h"
 
 #include <bit>
 #include <optional>
@@ -63,8 +63,8 @@ std::uint64_t hits_of(const Scene& scene, int rays)
 
 TEST_CASE("trees built by any number of threads give the same hits", "[regression][determinism][slow]")
 {
-    const TempFolder folder;
-    const std::string file = folder.write("soup.obj", soup(500000)).string();
+    const TempDirectory directory;
+    const std::string file = directory.write("soup.obj", soup(500000)).string();
     std::optional<std::uint64_t> first;
     for (const int threads : {1, 2, 4}) {
         for (int round = 0; round < 5; ++round) {

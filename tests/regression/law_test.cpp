@@ -4,8 +4,8 @@
 // else. Cases are drawn at random, from another seed in each run; a failure prints the seed, and with PLUMB_TEST_SEED set to
 // it the same cases are drawn again.
 
-#include "io/temporary_file.h"
-#include "plumb/state_file.h"
+#include "base/temporary_file.h"
+#include "plumb/render/state_file.h"
 #include "support/catch.h"
 #include "support/random.h"
 #include "support/scene_text.h"
@@ -74,17 +74,17 @@ bool same_bits(const RenderState& a, const RenderState& b)
     return true;
 }
 
-RenderState through_a_file(RenderState state, const TempFolder& folder)
+RenderState through_a_file(RenderState state, const TempDirectory& directory)
 {
-    TemporaryFile file(folder / "state.exr");
+    TemporaryFile file(directory / "state.exr");
     file.write(std::span<const unsigned char>(encode_state(state, {width, height}, {})));
     file.take_place();
-    return read_state(folder / "state.exr").state;
+    return read_state(directory / "state.exr").state;
 }
 
 // Takes the samples with threads, tiles and interruptions of its own; each interruption may go through a file.
 RenderState take(const RenderJob& job, RenderOptions options, const SampleSet& wanted, TestRandom& random,
-                 const TempFolder& folder)
+                 const TempDirectory& directory)
 {
     const Vec2i size = job.camera->resolution();
     RenderState state{Film(render_window(job, options), size.x, size.y), {}, {}, {}};
@@ -97,7 +97,7 @@ RenderState take(const RenderJob& job, RenderOptions options, const SampleSet& w
         std::atomic<int> asked = 0;
         done = rendering.take(wanted, {}, [&] { return ++asked > rows; });
         state = std::move(rendering).finish();
-        if (random.next_1d() < 0.2f) state = through_a_file(std::move(state), folder);
+        if (random.next_1d() < 0.2f) state = through_a_file(std::move(state), directory);
     }
     return state;
 }
@@ -121,7 +121,7 @@ void check_law(int cases)
     const std::uint64_t seed = given ? std::strtoull(given, nullptr, 10) : std::random_device()();
     INFO("PLUMB_TEST_SEED=" << seed);
     TestRandom random(seed);
-    const TempFolder folder;
+    const TempDirectory directory;
     std::vector<LoadedScene> loaded;
     for (const std::string& scene : scenes) loaded.push_back(test::load_text(scene));
     for (int i = 0; i < cases; ++i) {
@@ -144,7 +144,7 @@ void check_law(int cases)
             parts.push_back(
                 take(job, options,
                      part_of(render_window(job, options), options.samples_per_pixel, by, part, count), random,
-                     folder));
+                     directory));
         REQUIRE(same_bits(merge(std::move(parts), random), expected));
     }
 }

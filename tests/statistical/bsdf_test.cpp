@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-// What every BSDF of the catalog promises (plumb/bsdf.h), in every configuration of tests/support/bsdf_cases.cpp.
+// What every BSDF of the catalog promises (plumb/model/bsdf.h), in every configuration of tests/support/bsdf_cases.cpp.
 
 #include "support/bsdf_cases.h"
 #include "support/catch.h"

@@ -4,7 +4,7 @@
 // mesh, upright and turned, as far from the origin as 1e5 times their size. Where points are not kept away from the edges
 // (edge_clearance in src/shapes/triangle.h), 2 to 3 % of these rays leave, at every distance: a quarter go to an edge.
 
-#include "scene/float_mode.h"
+#include "base/float_mode.h"
 #include "support/catch.h"
 #include "support/lamp.h"
 #include "support/little_scene.h"

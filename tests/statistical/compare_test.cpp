@@ -2,7 +2,7 @@
 
 // How often `compare` finds a difference where there is none, and how often it finds one that there is.
 
-#include "plumb/compare.h"
+#include "plumb/compare/compare.h"
 #include "support/catch.h"
 #include "support/noisy_picture.h"
 #include "support/statistics.h"

@@ -3,23 +3,24 @@
 // The tests of test files: that right ones pass, wrong ones fail, and the p-values are what they should be.
 
 #include "build_paths.h"
-#include "course_tests/quadrature.h"
-#include "course_tests/statistic.h"
-#include "plumb/course_test.h"
-#include "plumb/sampling.h"
+#include "estimator_checks/quadrature.h"
+#include "estimator_checks/statistic.h"
+#include "plumb/estimator_checks/estimator_check.h"
+#include "plumb/sampling/sampling.h"
 #include "support/catch.h"
 #include "support/statistics.h"
-#include "support/temp_folder.h"
+#include "support/temp_directory.h"
 
 using namespace plumb;
 
 namespace {
 
-const std::filesystem::path folder = std::filesystem::path(PLUMB_SOURCE_DIR) / "tests" / "scenes" / "course";
+const std::filesystem::path directory =
+    std::filesystem::path(PLUMB_SOURCE_DIR) / "tests" / "scenes" / "course";
 
 TestFile load_text(const std::string& text)
 {
-    const TempFolder files;
+    const TempDirectory files;
     return load_test(files.write("test.xml", text));
 }
 
@@ -71,7 +72,7 @@ TEST_CASE("files with right references pass", "[statistical][course_test]")
     const std::string name =
         GENERATE("furnace.xml", "point_light.xml", "bsdf_means.xml", "chi2.xml", "lights.xml", "axis.xml");
     CAPTURE(name);
-    const TestFile file = load_test(folder / name);
+    const TestFile file = load_test(directory / name);
     CHECK(file.warnings.size() == (name == "axis.xml" ? 2u : 0u)); // of up along the view
     const auto results = run_tests(file, {});
     CHECK(results.size() == file.test_count());
@@ -85,7 +86,7 @@ TEST_CASE("files with right references pass", "[statistical][course_test]")
 
 TEST_CASE("a wrong reference fails, after a repetition", "[statistical][course_test]")
 {
-    const auto results = run_tests(load_test(folder / "wrong_reference.xml"), {});
+    const auto results = run_tests(load_test(directory / "wrong_reference.xml"), {});
     REQUIRE(results.size() == 2);
     CHECK(results[0].passed());
     CHECK(results[0].runs.size() == 1);
@@ -98,7 +99,7 @@ TEST_CASE("a wrong reference fails, after a repetition", "[statistical][course_t
 TEST_CASE("results depend on the seed and not on threads", "[statistical][course_test]")
 {
     for (const char* name : {"furnace.xml", "chi2.xml"}) {
-        const TestFile file = load_test(folder / name);
+        const TestFile file = load_test(directory / name);
         const auto once = run_tests(file, {7, 1}), again = run_tests(file, {7, 3}),
                    other = run_tests(file, {8, 3});
         for (std::size_t i = 0; i < once.size(); ++i) {
@@ -112,7 +113,7 @@ TEST_CASE("results depend on the seed and not on threads", "[statistical][course
 
 TEST_CASE("a ttest is Student's", "[statistical][course_test]")
 {
-    const TestFile file = load_test(folder / "furnace.xml");
+    const TestFile file = load_test(directory / "furnace.xml");
     for (const TestResult& result : run_tests(file, {3, 0})) {
         const TestRun& run = result.runs.front();
         REQUIRE(run.variance > 1e-3);
@@ -122,7 +123,7 @@ TEST_CASE("a ttest is Student's", "[statistical][course_test]")
         CHECK(run.p == Approx(test::student_t_two_sided(t, 4999)).epsilon(1e-8));
     }
     // Of values that do not differ the variance counts as 1e-5.
-    const TestRun constant = only_result(load_test(folder / "point_light.xml")).runs.front();
+    const TestRun constant = only_result(load_test(directory / "point_light.xml")).runs.front();
     CHECK(constant.variance < 1e-12);
     CHECK(constant.p ==
           Approx(test::student_t_two_sided((constant.mean - 0.1591549) * 1e4, 999)).epsilon(1e-8));

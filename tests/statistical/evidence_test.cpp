@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-#include "plumb/evidence.h"
+#include "plumb/render/evidence.h"
 #include "support/catch.h"
 #include "support/random.h"
 #include "support/statistics.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-#include "plumb/filter.h"
+#include "plumb/model/filter.h"
 #include "support/catch.h"
 #include "support/params.h"
 #include "support/statistics.h"

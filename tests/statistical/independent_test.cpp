@@ -5,11 +5,11 @@
 // into those references, but the reading of the scene files.
 
 #include "build_paths.h"
-#include "plumb/compare.h"
-#include "plumb/scene_file.h"
+#include "plumb/compare/compare.h"
+#include "plumb/scene_file/scene_file.h"
 #include "support/catch.h"
 #include "support/statistics.h"
-#include "support/temp_folder.h"
+#include "support/temp_directory.h"
 
 #include <fmt/format.h>
 
@@ -17,9 +17,9 @@ using namespace plumb;
 
 namespace {
 
-const std::filesystem::path scene_folder =
+const std::filesystem::path scene_directory =
     std::filesystem::path(PLUMB_SOURCE_DIR) / "tests" / "scenes" / "independent";
-const std::filesystem::path reference_folder =
+const std::filesystem::path reference_directory =
     std::filesystem::path(PLUMB_SOURCE_DIR) / "references" / "independent";
 
 // What single precision may cost either renderer.
@@ -32,7 +32,7 @@ struct Reference {
 
 Reference read_reference(const std::string& name)
 {
-    Reference reference{read_image(reference_folder / (name + ".exr"), false), true};
+    Reference reference{read_image(reference_directory / (name + ".exr"), false), true};
     for (const auto& [key, value] : Metadata(reference.image.metadata)) {
         if (key != "judge:samples") continue;
         reference.is_quadrature = false;
@@ -58,7 +58,7 @@ std::string describe(const Significance& found)
 void check_scene(const std::string& name, std::uint64_t samples_per_pixel, double undecided_share,
                  double level)
 {
-    const LoadedScene scene = load_scene(scene_folder / (name + ".xml"));
+    const LoadedScene scene = load_scene(scene_directory / (name + ".xml"));
     const Reference reference = read_reference(name);
     const auto run = [&](std::uint64_t samples, std::uint64_t seed) {
         RenderOptions how;
@@ -83,7 +83,7 @@ void check_scene(const std::string& name, std::uint64_t samples_per_pixel, doubl
 
 void check_scenes(std::uint64_t samples_per_pixel, double undecided_share)
 {
-    const std::vector<std::filesystem::path> scenes = xml_files(scene_folder);
+    const std::vector<std::filesystem::path> scenes = xml_files(scene_directory);
     REQUIRE(scenes.size() >= 40);
     const double level = test::sidak_level(test::significance, scenes.size());
     for (const std::filesystem::path& scene : scenes)

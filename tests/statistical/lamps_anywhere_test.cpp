@@ -4,7 +4,7 @@
 // kind in coordinate planes, close to them and far away, along axes and in any direction, small and large, near and far,
 // also seen nearly edge-on (support/placed_lamp.h).
 
-#include "scene/float_mode.h"
+#include "base/float_mode.h"
 #include "support/catch.h"
 #include "support/integrators.h"
 #include "support/lamp.h"

@@ -2,9 +2,9 @@
 
 // The choice among many emitters: the probabilities it says are those it has, and no light is forgotten.
 
-#include "plumb/light_tree.h"
+#include "plumb/scene/light_tree.h"
 
-#include "plumb/sampling.h"
+#include "plumb/sampling/sampling.h"
 #include "support/catch.h"
 #include "support/little_scene.h"
 

@@ -3,8 +3,8 @@
 // A scene looks the same wherever it stands: the Cornell box and Veach's plates, moved so that each wall, plate and lamp in
 // turn lies in a coordinate plane, by compare() with the power to see 1 %.
 
-#include "plumb/compare.h"
-#include "plumb/scene_file.h"
+#include "plumb/compare/compare.h"
+#include "plumb/scene_file/scene_file.h"
 #include "support/catch.h"
 #include "support/run.h"
 #include "support/statistics.h"
@@ -41,12 +41,13 @@ class MovableScenes {
 public:
     explicit MovableScenes(const std::vector<std::string>& parts)
     {
-        std::filesystem::copy(PLUMB_SOURCE_DIR "/scenes", folder_.path(),
+        std::filesystem::copy(PLUMB_SOURCE_DIR "/scenes", directory_.path(),
                               std::filesystem::copy_options::recursive);
-        for (const std::string& part : parts) folder_.write(part, with_move(read_bytes(folder_ / part)));
+        for (const std::string& part : parts)
+            directory_.write(part, with_move(read_bytes(directory_ / part)));
     }
 
-    std::filesystem::path file(const std::string& name) const { return folder_ / name; }
+    std::filesystem::path file(const std::string& name) const { return directory_ / name; }
 
     Image render(const std::string& scene, const std::string& integrator, const Vec3d& move, int spp,
                  int seed) const
@@ -55,14 +56,14 @@ public:
             run_renderer({scene, "-D", fmt::format("move={},{},{}", move.x, move.y, move.z), "-D",
                           "integrator=" + integrator, "--size", "64x48", "--spp", std::to_string(spp),
                           "--seed", std::to_string(seed), "-o", "out.exr"},
-                         folder_.path());
+                         directory_.path());
         INFO(run.err);
         REQUIRE(run.exit_code == 0);
-        return read_image(folder_ / "out.exr", false);
+        return read_image(directory_ / "out.exr", false);
     }
 
 private:
-    TempFolder folder_;
+    TempDirectory directory_;
 };
 
 enum class Objects { all, emitters };

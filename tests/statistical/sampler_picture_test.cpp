@@ -3,7 +3,7 @@
 // Pictures by samplers whose samples depend on each other: their expectation is that of independent samples, and their
 // error bars are upper bounds.
 
-#include "plumb/mean_and_variance.h"
+#include "plumb/statistics/mean_and_variance.h"
 #include "support/catch.h"
 #include "support/scene_text.h"
 #include "support/statistics.h"

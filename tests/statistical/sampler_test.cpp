@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 
-#include "plumb/mean_and_variance.h"
-#include "plumb/sampler.h"
+#include "plumb/model/sampler.h"
+#include "plumb/statistics/mean_and_variance.h"
 #include "scene_file/catalog.h"
 #include "support/catch.h"
 #include "support/params.h"

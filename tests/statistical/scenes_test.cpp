@@ -7,7 +7,7 @@
 #include "support/catch.h"
 #include "support/statistics.h"
 
-#include "plumb/scene_file.h"
+#include "plumb/scene_file/scene_file.h"
 
 #include <fmt/format.h>
 

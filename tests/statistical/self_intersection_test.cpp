@@ -8,13 +8,13 @@
 // src/shapes/triangle.h were chosen with this test: in 3e7 rays there are wrong hits with factors of 1 and 1.5 and
 // with 1.5 and 1, none with 2 and 1.5; the factors are 4 and 4.
 
-#include "plumb/scene.h"
+#include "plumb/scene/scene.h"
 
-#include "scene/float_mode.h"
+#include "base/float_mode.h"
 #include "support/catch.h"
 #include "support/params.h"
 #include "support/random.h"
-#include "support/temp_folder.h"
+#include "support/temp_directory.h"
 
 #include <fmt/format.h>
 
@@ -74,11 +74,11 @@ bool has_area(const Quad& quad)
     return length(cross(edge(1), edge(2))) > 0.0 && length(cross(edge(2), edge(3))) > 0.0;
 }
 
-std::unique_ptr<Shape> mesh_of(const Quad& quad, const TempFolder& folder)
+std::unique_ptr<Shape> mesh_of(const Quad& quad, const TempDirectory& directory)
 {
     std::string text;
     for (const Vec3f& p : quad.corners) text += fmt::format("v {} {} {}\n", p.x, p.y, p.z);
-    const auto file = folder.write("quad.obj", text + "f 1 2 3\nf 1 3 4\n");
+    const auto file = directory.write("quad.obj", text + "f 1 2 3\nf 1 3 4\n");
     return ParamsBuilder("mesh", "obj").string("filename", file.string()).build<TriangleMesh, Shape>();
 }
 
@@ -134,12 +134,12 @@ void leave(const Scene& scene, double size, int rays, TestRandom& random, Count&
 Count leave_quads(int quads, int rays)
 {
     const FlushDenormals mode;
-    const TempFolder folder;
+    const TempDirectory directory;
     TestRandom random(11);
     Count count;
     for (int i = 0; i < quads; ++i) {
         const Quad quad = random_quad(random, i % 8);
-        if (has_area(quad)) leave(scene_of(mesh_of(quad, folder)), quad.size, rays, random, count);
+        if (has_area(quad)) leave(scene_of(mesh_of(quad, directory)), quad.size, rays, random, count);
     }
     return count;
 }

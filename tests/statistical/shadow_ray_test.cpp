@@ -4,12 +4,12 @@
 //
 // Lamps of every kind stand where single precision has little to give (support/placed_lamp.h), receivers are 0.4 to 1e3
 // away, also nearly in the lamp's plane: a lamp that hides itself is wrong. And a sheet in front of a lamp must be seen, as
-// close to the lamp as end_clearance() (plumb/ray.h) promises. With other factors there than the derived 10, of 300,000
+// close to the lamp as end_clearance() (plumb/math/ray.h) promises. With other factors there than the derived 10, of 300,000
 // rays to flat lamps 13.4 % were hidden with 0, 2.7 % with 1, 0.25 % with 2 and none with 4.
 
-#include "plumb/scene.h"
+#include "plumb/scene/scene.h"
 
-#include "scene/float_mode.h"
+#include "base/float_mode.h"
 #include "support/catch.h"
 #include "support/lamp.h"
 #include "support/placed_lamp.h"

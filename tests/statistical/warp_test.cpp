@@ -2,7 +2,7 @@
 
 // Every warp against its density.
 
-#include "plumb/sampling.h"
+#include "plumb/sampling/sampling.h"
 
 #include "support/catch.h"
 #include "support/statistics.h"

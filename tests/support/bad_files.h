@@ -3,13 +3,13 @@
 
 // Files that are wrong, each beside a file .expected with the exact text of what is wrong with it.
 
-#include "plumb/error.h"
+#include "plumb/base/error.h"
 #include "support/catch.h"
-#include "support/temp_folder.h"
+#include "support/temp_directory.h"
 
 namespace plumb {
 
-// What load(path) complains of, with paths relative to the file's folder.
+// What load(path) complains of, with paths relative to the file's directory.
 template <class Load>
 std::string complaints(const std::filesystem::path& path, const Load& load)
 {

@@ -3,7 +3,7 @@
 
 // Every BSDF of the catalog, in the configurations that the tests look at.
 
-#include "plumb/bsdf.h"
+#include "plumb/model/bsdf.h"
 #include "support/params.h"
 #include "support/statistics.h"
 

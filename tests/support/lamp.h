@@ -3,9 +3,9 @@
 
 // Area lights for tests: one shape that shines, alone in a scene.
 
-#include "plumb/scene.h"
+#include "plumb/scene/scene.h"
 #include "support/params.h"
-#include "support/temp_folder.h"
+#include "support/temp_directory.h"
 
 #include <functional>
 #include <memory>
@@ -75,9 +75,9 @@ inline std::unique_ptr<Shape> panel(const Vec3f& center, double width, double he
 
 inline std::unique_ptr<Shape> mesh(const std::string& text)
 {
-    const TempFolder folder;
+    const TempDirectory directory;
     return ParamsBuilder("mesh", "obj")
-        .string("filename", folder.write("mesh.obj", text).string())
+        .string("filename", directory.write("mesh.obj", text).string())
         .build<TriangleMesh, Shape>();
 }
 

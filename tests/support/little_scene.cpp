@@ -2,8 +2,8 @@
 
 #include "support/little_scene.h"
 
-#include "plumb/emitter.h"
-#include "plumb/shape.h"
+#include "plumb/model/emitter.h"
+#include "plumb/model/shape.h"
 
 namespace plumb {
 class AreaEmitter;

@@ -3,9 +3,9 @@
 
 // Scenes of a few spheres and rectangles built through the library, and estimates of the light along rays in them.
 
-#include "plumb/integrator.h"
-#include "plumb/sampler.h"
-#include "plumb/tracer.h"
+#include "plumb/model/integrator.h"
+#include "plumb/model/sampler.h"
+#include "plumb/scene/tracer.h"
 #include "support/params.h"
 #include "support/statistics.h"
 

@@ -3,7 +3,7 @@
 
 // Pictures of pure noise with the channels that tell about it, for tests of comparisons.
 
-#include "plumb/image.h"
+#include "plumb/image/image.h"
 #include "support/random.h"
 
 #include <cmath>

@@ -126,9 +126,9 @@ ParamsBuilder& ParamsBuilder::dialect(const Dialect& value)
     return *this;
 }
 
-ParamsBuilder& ParamsBuilder::folder(const std::filesystem::path& value)
+ParamsBuilder& ParamsBuilder::directory(const std::filesystem::path& value)
 {
-    folder_ = value;
+    directory_ = value;
     return *this;
 }
 
@@ -142,7 +142,7 @@ std::string ParamsBuilder::text() const
 
 Params ParamsBuilder::make_params(Diagnostics& diagnostics) const
 {
-    Params params(kind_, type_, place_of(type_), diagnostics, dialect_, folder_);
+    Params params(kind_, type_, place_of(type_), diagnostics, dialect_, directory_);
     for (const auto& [name, property] : properties_) params.add(name, property);
     for (const auto& child : textures_) params.add_texture(child);
     params.set_parent_shape(parent_shape_);

@@ -7,8 +7,8 @@
 //
 // after `namespace plumb { class Diffuse; }`. A scene file with the same elements would give the same Params.
 
-#include "plumb/bsdf.h"
-#include "plumb/params.h"
+#include "plumb/model/bsdf.h"
+#include "plumb/model/params.h"
 #include "scene_file/catalog.h"
 
 #include <span>
@@ -35,7 +35,7 @@ public:
     ParamsBuilder& texture(const std::string& name, std::shared_ptr<const Texture> value);
     ParamsBuilder& parent_shape(const Shape* shape);
     ParamsBuilder& dialect(const Dialect& value);
-    ParamsBuilder& folder(const std::filesystem::path& value);
+    ParamsBuilder& directory(const std::filesystem::path& value);
 
     const std::string& kind() const { return kind_; }
     const std::string& type() const { return type_; }
@@ -99,7 +99,7 @@ private:
     std::vector<TextureChild> textures_;
     const Shape* parent_shape_ = nullptr;
     Dialect dialect_;
-    std::filesystem::path folder_;
+    std::filesystem::path directory_;
 };
 
 // A texture with one colour where u < 1/2 and another elsewhere.

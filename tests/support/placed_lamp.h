@@ -4,7 +4,7 @@
 // Lamps of every flat kind, and spheres, at places where single precision has little to give: in coordinate planes, close
 // to them and far away, along axes and in any direction, from 0.05 to 20 in size.
 
-#include "plumb/shape.h"
+#include "plumb/model/shape.h"
 #include "support/random.h"
 
 #include <memory>

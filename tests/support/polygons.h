@@ -3,7 +3,7 @@
 
 // Polygons of many kinds, all of them counter-clockwise and without crossings, for tests of cutting them.
 
-#include "plumb/math.h"
+#include "plumb/math/math.h"
 #include "support/random.h"
 
 #include <vector>

@@ -3,7 +3,7 @@
 
 // Random numbers for tests: the same sequence on every machine, for a given seed.
 
-#include "plumb/math.h"
+#include "plumb/math/math.h"
 
 #include <cstdint>
 

@@ -4,7 +4,7 @@
 // Running the real program.
 
 #include "build_paths.h"
-#include "support/temp_folder.h"
+#include "support/temp_directory.h"
 
 #include <cerrno>
 #include <cstring>
@@ -25,13 +25,13 @@ struct RunResult {
 // What to do while the program runs.
 using Meanwhile = std::function<void(pid_t process)>;
 
-// Runs words[0] in `folder` with standard input empty. out: where standard output goes, instead of into the result.
+// Runs words[0] in `directory` with standard input empty. out: where standard output goes, instead of into the result.
 // variables: "NAME=VALUE", added to the environment.
-inline RunResult run_program(const std::vector<std::string>& words, const std::filesystem::path& folder,
+inline RunResult run_program(const std::vector<std::string>& words, const std::filesystem::path& directory,
                              const std::string& out = "", const Meanwhile& meanwhile = {},
                              const std::vector<std::string>& variables = {})
 {
-    const TempFolder capture;
+    const TempDirectory capture;
     const std::string out_file = out.empty() ? (capture / "out").string() : out;
     const std::string err_file = (capture / "err").string();
 
@@ -40,7 +40,7 @@ inline RunResult run_program(const std::vector<std::string>& words, const std::f
     posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
     posix_spawn_file_actions_addopen(&actions, 1, out_file.c_str(), O_WRONLY | O_CREAT, 0600);
     posix_spawn_file_actions_addopen(&actions, 2, err_file.c_str(), O_WRONLY | O_CREAT, 0600);
-    posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
+    posix_spawn_file_actions_addchdir_np(&actions, directory.c_str());
 
     std::vector<std::string> copies = words;
     std::vector<char*> argv;
@@ -67,12 +67,12 @@ inline RunResult run_program(const std::vector<std::string>& words, const std::f
     return result;
 }
 
-inline RunResult run_renderer(std::vector<std::string> words, const std::filesystem::path& folder,
+inline RunResult run_renderer(std::vector<std::string> words, const std::filesystem::path& directory,
                               const std::string& out = "", const Meanwhile& meanwhile = {},
                               const std::vector<std::string>& variables = {})
 {
     words.insert(words.begin(), PLUMB_RENDERER);
-    return run_program(words, folder, out, meanwhile, variables);
+    return run_program(words, directory, out, meanwhile, variables);
 }
 
 } // namespace plumb

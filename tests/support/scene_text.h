@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Scenes written in a test: the text goes to a file in a temporary folder and through the real loader.
+// Scenes written in a test: the text goes to a file in a temporary directory and through the real loader.
 
-#include "plumb/scene_file.h"
-#include "support/temp_folder.h"
+#include "plumb/scene_file/scene_file.h"
+#include "support/temp_directory.h"
 
 #include <string>
 
@@ -12,8 +12,8 @@ namespace plumb::test {
 
 inline LoadedScene load_text(const std::string& xml, const LoadOptions& options = {})
 {
-    const TempFolder folder;
-    return load_scene(folder.write("scene.xml", xml), options);
+    const TempDirectory directory;
+    return load_scene(directory.write("scene.xml", xml), options);
 }
 
 // What loading complains of.

@@ -8,7 +8,7 @@
 // repeated once with 100 times the samples and another seed, and that result counts. Everything is in double
 // precision and uses the C library's functions, not the ones under test.
 
-#include "plumb/mean_and_variance.h"
+#include "plumb/statistics/mean_and_variance.h"
 #include "support/random.h"
 
 #include <cstdint>

@@ -2,19 +2,19 @@
 // Every file in tests/scenes/bad_tests, a test file of a course, beside the exact text of what is wrong with it.
 
 #include "build_paths.h"
-#include "plumb/test_file.h"
+#include "plumb/test_file/test_file.h"
 #include "support/bad_files.h"
 
 using namespace plumb;
 
 namespace {
 
-const std::filesystem::path folder =
+const std::filesystem::path directory =
     std::filesystem::path(PLUMB_SOURCE_DIR) / "tests" / "scenes" / "bad_tests";
 
 TestFile load_text(const std::string& text)
 {
-    const TempFolder files;
+    const TempDirectory files;
     return load_test(files.write("test.xml", text));
 }
 
@@ -24,13 +24,13 @@ const std::string scene_start = "<scene><integrator type='normals'/><camera type
 
 TEST_CASE("bad tests", "[unit][test_file]")
 {
-    const std::filesystem::path path = GENERATE(from_range(xml_files(folder)));
+    const std::filesystem::path path = GENERATE(from_range(xml_files(directory)));
     check_complaints(path, [](const std::filesystem::path& test) { load_test(test); });
 }
 
 TEST_CASE("there are bad tests", "[unit][test_file]")
 {
-    CHECK(xml_files(folder).size() >= 24);
+    CHECK(xml_files(directory).size() >= 24);
 }
 
 TEST_CASE("a ttest has the courses' defaults", "[unit][test_file]")
@@ -130,7 +130,7 @@ TEST_CASE("a ttest of emitters", "[unit][test_file]")
 
 TEST_CASE("the scenes of a ttest include files and name values", "[unit][test_file]")
 {
-    const TempFolder files;
+    const TempDirectory files;
     files.write("part.xml",
                 "<scene><default name='kind' value='normals'/><camera type='perspective'/></scene>");
     const std::string text = "<test type='ttest'><string name='references' value='0 $zero'/>"

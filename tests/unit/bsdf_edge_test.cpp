@@ -3,7 +3,7 @@
 // BSDFs at the ends of their ranges: grazing directions, the corners of the random numbers, extreme parameters; the
 // smooth ones against the laws of optics; and what they say of parameters out of range.
 
-#include "scene/float_mode.h"
+#include "base/float_mode.h"
 #include "support/bsdf_cases.h"
 #include "support/catch.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-#include "plumb/camera.h"
+#include "plumb/model/camera.h"
 #include "support/catch.h"
 #include "support/params.h"
 #include "support/random.h"

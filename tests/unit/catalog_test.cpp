@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-#include "plumb/bsdf.h"
-#include "plumb/camera.h"
-#include "plumb/emitter.h"
-#include "plumb/filter.h"
-#include "plumb/image.h"
-#include "plumb/integrator.h"
-#include "plumb/sampler.h"
-#include "plumb/scene_file.h"
-#include "plumb/shape.h"
+#include "plumb/image/image.h"
+#include "plumb/model/bsdf.h"
+#include "plumb/model/camera.h"
+#include "plumb/model/emitter.h"
+#include "plumb/model/filter.h"
+#include "plumb/model/integrator.h"
+#include "plumb/model/sampler.h"
+#include "plumb/model/shape.h"
+#include "plumb/scene_file/scene_file.h"
 #include "scene_file/catalog.h"
 #include "scene_file/manual.h"
 #include "support/catch.h"
-#include "support/temp_folder.h"
+#include "support/temp_directory.h"
 
 #include <set>
 
@@ -30,9 +30,9 @@ class Survey {
 public:
     Survey()
     {
-        folder_.write("file", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+        directory_.write("file", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
         Image image(1, 1);
-        write_image(folder_ / "file.png", image);
+        write_image(directory_ / "file.png", image);
         visit(shape_types(), "shape");
         visit(bsdf_types(), "bsdf");
         visit(texture_types(), "texture");
@@ -68,7 +68,7 @@ private:
     {
         Diagnostics diagnostics;
         const Dialect dialect;
-        Params params(kind, std::string(entry.name), {}, diagnostics, dialect, folder_.path());
+        Params params(kind, std::string(entry.name), {}, diagnostics, dialect, directory_.path());
         if (all_given) { // with values that cannot be read
             Property property;
             property.broken = true;
@@ -91,7 +91,7 @@ private:
             if (all_given && !params.is_unused(name)) described.asked.insert(name);
     }
 
-    TempFolder folder_;
+    TempDirectory directory_;
     std::map<std::string, Described> classes_;
 };
 

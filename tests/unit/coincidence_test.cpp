@@ -5,7 +5,7 @@
 #include "build_paths.h"
 #include "check/coincidence.h"
 #include "check/triangle_overlap.h"
-#include "plumb/check.h"
+#include "plumb/check/check.h"
 #include "support/catch.h"
 #include "support/random.h"
 #include "support/scene_text.h"
@@ -64,14 +64,14 @@ std::string sheet(const Placement& place, double x0, double y0, double x1, doubl
 LoadedScene load(const std::string& first, const std::string& second, const std::string& more_of_first = "",
                  const std::string& more_of_second = "")
 {
-    const TempFolder folder;
-    folder.write("a.obj", first);
-    folder.write("b.obj", second);
+    const TempDirectory directory;
+    directory.write("a.obj", first);
+    directory.write("b.obj", second);
     const auto mesh = [](const std::string& file, const std::string& more) {
         return "<mesh type='obj'><string name='filename' value='" + file + "'/>" + more + "</mesh>";
     };
-    return load_scene(folder.write("s.xml", start + "\n" + mesh("a.obj", more_of_first) + "\n" +
-                                                mesh("b.obj", more_of_second) + "</scene>"));
+    return load_scene(directory.write("s.xml", start + "\n" + mesh("a.obj", more_of_first) + "\n" +
+                                                   mesh("b.obj", more_of_second) + "</scene>"));
 }
 
 Coincidences coincidences(const std::string& first, const std::string& second)
@@ -246,9 +246,9 @@ TEST_CASE("an opaque box that stands on a floor is no doubt", "[unit][coincidenc
 TEST_CASE("the scenes that come with us leave no doubt about coincident surfaces or distance",
           "[unit][coincidence]")
 {
-    for (const char* folder : {"scenes", "tests/scenes/independent"}) {
+    for (const char* directory : {"scenes", "tests/scenes/independent"}) {
         for (const auto& entry : std::filesystem::recursive_directory_iterator(
-                 std::filesystem::path(PLUMB_SOURCE_DIR) / folder)) {
+                 std::filesystem::path(PLUMB_SOURCE_DIR) / directory)) {
             // parts/ has what other scenes include.
             if (entry.path().extension() != ".xml" || entry.path().parent_path().filename() == "parts")
                 continue;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-#include "plumb/color.h"
+#include "plumb/math/color.h"
 
 #include "support/catch.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // How much is kept of what is wrong with a file.
 
-#include "plumb/error.h"
+#include "plumb/base/error.h"
 #include "support/catch.h"
 
 #include <functional>

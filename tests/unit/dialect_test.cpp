@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "plumb/dialect.h"
-#include "plumb/image.h"
-#include "plumb/scene_file.h"
+#include "plumb/image/image.h"
+#include "plumb/model/dialect.h"
+#include "plumb/scene_file/scene_file.h"
 #include "scene_file/dialects.h"
 #include "support/catch.h"
 #include "support/scene_text.h"
@@ -195,59 +195,59 @@ TEST_CASE("contradicting marks: plumb, and what the others would change", "[unit
 
 TEST_CASE("files beside a scene tell whose it is", "[unit][dialect]")
 {
-    const TempFolder folder;
-    const auto dialect = [&](const std::string& name) { return load_scene(folder.path() / name).dialect; };
-    folder.write("a_mis.xml", whole(""));
+    const TempDirectory directory;
+    const auto dialect = [&](const std::string& name) { return load_scene(directory.path() / name).dialect; };
+    directory.write("a_mis.xml", whole(""));
     CHECK(dialect("a_mis.xml").name == DialectName::plumb);
 
     SECTION("zaragoza")
     {
-        folder.write("a_nee.xml", whole("", "<integrator type='path_nee'/>"));
+        directory.write("a_nee.xml", whole("", "<integrator type='path_nee'/>"));
         CHECK(dialect("a_mis.xml").name == DialectName::zaragoza);
         CHECK(dialect("a_mis.xml").reason ==
               "only zaragoza files have 'path_nee' (a_nee.xml:1), counting the files beside it");
         // Whoever writes the attribute once would have written it again.
-        folder.write("b.xml", "<scene dialect='plumb'/>");
+        directory.write("b.xml", "<scene dialect='plumb'/>");
         CHECK(dialect("a_mis.xml").name == DialectName::plumb);
     }
     SECTION("epfl")
     {
-        folder.write("a_ems.xml", whole("", "<integrator type='path_ems'/>"));
+        directory.write("a_ems.xml", whole("", "<integrator type='path_ems'/>"));
         CHECK(dialect("a_mis.xml").name == DialectName::plumb);
-        folder.write("a_mats.xml", whole("", "<integrator type='path_mats'/>"));
+        directory.write("a_mats.xml", whole("", "<integrator type='path_mats'/>"));
         CHECK(dialect("a_mis.xml").name == DialectName::epfl);
         CHECK(dialect("a_ems.xml").name == DialectName::epfl);
     }
     SECTION("eth")
     {
-        folder.write("a_ball.xml", whole(sphere));
+        directory.write("a_ball.xml", whole(sphere));
         CHECK(dialect("a_mis.xml").name == DialectName::plumb);
         CHECK(dialect("a_ball.xml").name == DialectName::plumb);
-        folder.write("a_direct.xml",
-                     whole(sphere, "<integrator type='direct_mis'/>")); // a sphere is no second mark
+        directory.write("a_direct.xml",
+                        whole(sphere, "<integrator type='direct_mis'/>")); // a sphere is no second mark
         CHECK(dialect("a_ball.xml").name == DialectName::plumb);
-        folder.write("a_mats.xml", whole(sphere, "<integrator type='path_mats'/>"));
+        directory.write("a_mats.xml", whole(sphere, "<integrator type='path_mats'/>"));
         for (const char* name : {"a_mis.xml", "a_ball.xml", "a_mats.xml"}) {
             CHECK(dialect(name).name == DialectName::eth);
             CHECK(dialect(name).mirrored_view);
         }
         // What ETH's files have not.
-        folder.write("b.xml", whole("<mesh type='rectangle'/>"));
+        directory.write("b.xml", whole("<mesh type='rectangle'/>"));
         CHECK(dialect("a_mis.xml").name == DialectName::plumb);
     }
     SECTION("whatever else lies there")
     {
-        folder.write("broken.xml", "<scene><integrator");
-        folder.write("test.xml", "<test type='ttest'><scene><integrator type='path_nee'/></scene></test>");
-        folder.write("notes.txt", whole("", "<integrator type='path_nee'/>"));
-        std::filesystem::create_directory(folder.path() / "folder.xml");
-        std::filesystem::create_symlink("nowhere", folder.path() / "link.xml");
+        directory.write("broken.xml", "<scene><integrator");
+        directory.write("test.xml", "<test type='ttest'><scene><integrator type='path_nee'/></scene></test>");
+        directory.write("notes.txt", whole("", "<integrator type='path_nee'/>"));
+        std::filesystem::create_directory(directory.path() / "directory.xml");
+        std::filesystem::create_symlink("nowhere", directory.path() / "link.xml");
         CHECK(dialect("a_mis.xml").name == DialectName::plumb);
     }
     SECTION("very many files are another matter")
     {
-        folder.write("a_nee.xml", whole("", "<integrator type='path_nee'/>"));
-        for (int i = 0; i < 70; ++i) folder.write("b" + std::to_string(i) + ".xml", "<scene/>");
+        directory.write("a_nee.xml", whole("", "<integrator type='path_nee'/>"));
+        for (int i = 0; i < 70; ++i) directory.write("b" + std::to_string(i) + ".xml", "<scene/>");
         CHECK(dialect("a_mis.xml").name == DialectName::plumb);
     }
 }
@@ -291,15 +291,15 @@ TEST_CASE("a sphere with path_mis may be eth's", "[unit][dialect]")
 
 TEST_CASE("warnings name what would change this picture, with numbers", "[unit][dialect]")
 {
-    const TempFolder folder;
+    const TempDirectory directory;
     Image map(8, 4);
     for (int y = 0; y < 4; ++y)
         for (int x = 0; x < 8; ++x) std::fill_n(map.pixel(x, y), 3, 0.5f);
-    write_image(folder / "map.exr", map);
+    write_image(directory / "map.exr", map);
     const std::string around =
         "<emitter type='environment'><string name='filename' value='map.exr'/></emitter>";
     const auto load = [&](const std::string& body, const LoadOptions& options = {}) {
-        const LoadedScene loaded = load_scene(folder.write("scene.xml", body), options);
+        const LoadedScene loaded = load_scene(directory.write("scene.xml", body), options);
         std::string text;
         for (const Diagnostic& warning : loaded.warnings) text += warning.text() + "\n";
         return std::pair(loaded.dialect, text);

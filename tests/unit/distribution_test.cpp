@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-#include "plumb/distribution.h"
+#include "plumb/sampling/distribution.h"
 
 #include "support/catch.h"
 #include "support/random.h"

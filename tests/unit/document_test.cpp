@@ -2,7 +2,7 @@
 #include "scene_file/document.h"
 #include "scene_file/xml_scan.h"
 #include "support/catch.h"
-#include "support/temp_folder.h"
+#include "support/temp_directory.h"
 
 #include <fstream>
 
@@ -234,9 +234,9 @@ TEST_CASE("damaged files", "[unit][document]")
 
 TEST_CASE("files that cannot be read", "[unit][document]")
 {
-    const TempFolder folder;
-    CHECK_THROWS_WITH(read_text(folder.path() / "none.xml"), ContainsSubstring("there is no file '"));
-    CHECK_THROWS_WITH(read_text(folder.path()), ContainsSubstring("is a folder, not a scene file"));
-    std::ofstream(folder.path() / "a.xml", std::ios::binary) << "a\r\n\0";
-    CHECK(read_text(folder.path() / "a.xml") == "a\r\n");
+    const TempDirectory directory;
+    CHECK_THROWS_WITH(read_text(directory.path() / "none.xml"), ContainsSubstring("there is no file '"));
+    CHECK_THROWS_WITH(read_text(directory.path()), ContainsSubstring("is a directory, not a scene file"));
+    std::ofstream(directory.path() / "a.xml", std::ios::binary) << "a\r\n\0";
+    CHECK(read_text(directory.path() / "a.xml") == "a\r\n");
 }

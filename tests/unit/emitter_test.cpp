@@ -2,7 +2,7 @@
 
 // Emitters without random numbers: light of points and directions, power, defaults and errors.
 
-#include "plumb/emitter.h"
+#include "plumb/model/emitter.h"
 
 #include "support/catch.h"
 #include "support/lamp.h"

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 
-#include "plumb/emitter.h"
-#include "plumb/image.h"
+#include "plumb/image/image.h"
+#include "plumb/model/emitter.h"
 #include "support/catch.h"
 #include "support/params.h"
 #include "support/random.h"
 #include "support/statistics.h"
-#include "support/temp_folder.h"
+#include "support/temp_directory.h"
 
 #include <map>
 
@@ -55,11 +55,11 @@ Dialect dialect_of(bool flipped)
 
 std::unique_ptr<Emitter> environment(Picture which, bool flipped, const Color& radiance = Color(1.f))
 {
-    const TempFolder folder;
-    write_image(folder / "sky.exr", picture(which));
+    const TempDirectory directory;
+    write_image(directory / "sky.exr", picture(which));
     const Dialect dialect = dialect_of(flipped);
     return ParamsBuilder("emitter", "environment")
-        .folder(folder.path())
+        .directory(directory.path())
         .dialect(dialect)
         .string("filename", "sky.exr")
         .color("radiance", radiance)
@@ -273,10 +273,10 @@ TEST_CASE("an environment of one colour", "[unit][environment]")
 
 TEST_CASE("black environments give no samples", "[unit][environment]")
 {
-    const TempFolder folder;
-    write_image(folder / "black.exr", Image(3, 2));
+    const TempDirectory directory;
+    write_image(directory / "black.exr", Image(3, 2));
     const auto picture_of_nothing = ParamsBuilder("emitter", "environment")
-                                        .folder(folder.path())
+                                        .directory(directory.path())
                                         .string("filename", "black.exr")
                                         .build<EnvironmentEmitter, Emitter>();
     const auto black = ParamsBuilder("emitter", "environment")
@@ -292,13 +292,14 @@ TEST_CASE("black environments give no samples", "[unit][environment]")
 
 TEST_CASE("environment pictures that are not light", "[unit][environment]")
 {
-    const TempFolder folder;
+    const TempDirectory directory;
     Image image(4, 3);
     image.pixel(2, 1)[1] = -1.f;
     image.pixel(1, 1)[1] = 1.f;
-    write_image(folder / "negative.exr", image);
-    const auto negative =
-        ParamsBuilder("emitter", "environment").folder(folder.path()).string("filename", "negative.exr");
+    write_image(directory / "negative.exr", image);
+    const auto negative = ParamsBuilder("emitter", "environment")
+                              .directory(directory.path())
+                              .string("filename", "negative.exr");
     const auto complaints = negative.complaints<EnvironmentEmitter, Emitter>();
     REQUIRE(complaints.size() == 1);
     CHECK_THAT(complaints[0], ContainsSubstring("warning: the picture has negative values"));
@@ -306,9 +307,10 @@ TEST_CASE("environment pictures that are not light", "[unit][environment]")
     CHECK(integral([&](const Vec3f& wi) { return min_component(seen(*emitter, wi).radiance); }) == 0.0);
 
     image.pixel(3, 2)[0] = infinity;
-    write_image(folder / "infinite.exr", image);
-    const auto infinite =
-        ParamsBuilder("emitter", "environment").folder(folder.path()).string("filename", "infinite.exr");
+    write_image(directory / "infinite.exr", image);
+    const auto infinite = ParamsBuilder("emitter", "environment")
+                              .directory(directory.path())
+                              .string("filename", "infinite.exr");
     CHECK_THROWS_WITH((infinite.build<EnvironmentEmitter, Emitter>()),
                       ContainsSubstring("pixel (3, 2) is not finite"));
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "plumb/error.h"
+#include "plumb/base/error.h"
 #include "support/catch.h"
 
 using namespace plumb;

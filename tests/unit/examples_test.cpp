@@ -2,8 +2,8 @@
 
 // The examples in the manual are parts of scenes that can be loaded.
 
-#include "plumb/image.h"
-#include "plumb/scene_file.h"
+#include "plumb/image/image.h"
+#include "plumb/scene_file/scene_file.h"
 #include "scene_file/document.h"
 #include "support/catch.h"
 #include "support/scene_text.h"
@@ -55,12 +55,12 @@ void make_file(const std::filesystem::path& file)
     write_image(file, Image(2, 2));
 }
 
-void make_files(const Element& element, const std::filesystem::path& folder)
+void make_files(const Element& element, const std::filesystem::path& directory)
 {
     const std::string name = element.value("name");
     if (element.tag == "string" && (name == "filename" || name == "filepath"))
-        make_file(folder / element.value("value"));
-    for (const Element& child : element.children) make_files(child, folder);
+        make_file(directory / element.value("value"));
+    for (const Element& child : element.children) make_files(child, directory);
 }
 
 // A scene of dialect plumb with the object where it belongs.
@@ -90,13 +90,13 @@ TEST_CASE("every example of the manual is a part of a scene that loads", "[unit]
         CHECK_FALSE(examples.empty());
         for (const std::string& example : examples) {
             CAPTURE(example);
-            const TempFolder folder;
+            const TempDirectory directory;
             Diagnostics diagnostics;
             const auto scene = parse_document("manual.xml", "<scene>" + example + "</scene>", diagnostics);
             REQUIRE(scene);
             REQUIRE(scene->children.size() == 1);
             const Element& element = scene->children[0];
-            make_files(element, folder.path());
+            make_files(element, directory.path());
             std::string object = example;
             std::string kind(type.kind);
             // An example may show its type where it stands, a lamp in its shape say.
@@ -109,7 +109,7 @@ TEST_CASE("every example of the manual is a part of a scene that loads", "[unit]
             }
             const bool is_area = element.tag == "emitter" && element.value("type") == "area";
             const LoadedScene loaded =
-                load_scene(folder.write("scene.xml", scene_with(kind, object, is_area)));
+                load_scene(directory.write("scene.xml", scene_with(kind, object, is_area)));
             CHECK(loaded.dialect.name == DialectName::plumb);
             CHECK(loaded.warnings.empty());
         }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "scene_file/expand.h"
 #include "support/catch.h"
-#include "support/temp_folder.h"
+#include "support/temp_directory.h"
 
 #include <fstream>
 
@@ -11,20 +11,20 @@ using namespace plumb;
 
 namespace {
 
-// A folder of scene files.
+// A directory of scene files.
 class Files {
 public:
     Files& write(const std::string& name, const std::string& text)
     {
-        std::filesystem::create_directories((folder_.path() / name).parent_path());
-        std::ofstream(folder_.path() / name, std::ios::binary) << text;
+        std::filesystem::create_directories((directory_.path() / name).parent_path());
+        std::ofstream(directory_.path() / name, std::ios::binary) << text;
         return *this;
     }
 
     Expansion expand(const Definitions& definitions = {}, const ExpansionLimits& limits = {})
     {
         diagnostics_ = {};
-        const auto path = folder_.path() / "main.xml";
+        const auto path = directory_.path() / "main.xml";
         auto root = parse_document(path, read_text(path), diagnostics_);
         REQUIRE(root);
         return plumb::expand(*root, definitions, diagnostics_, limits);
@@ -45,7 +45,7 @@ public:
     const Diagnostics& diagnostics() const { return diagnostics_; }
 
 private:
-    TempFolder folder_;
+    TempDirectory directory_;
     Diagnostics diagnostics_;
 };
 
@@ -129,9 +129,9 @@ TEST_CASE("included files", "[unit][expand]")
     REQUIRE(expansion.files.size() == 3);
     CHECK(expansion.files[1]->path().filename() == "one.xml");
     // Paths and places are those of the included file.
-    CHECK(expansion.root.children[1].file->folder().filename() == "parts");
+    CHECK(expansion.root.children[1].file->directory().filename() == "parts");
     CHECK(expansion.root.children[1].place().line == 2);
-    CHECK(expansion.root.children[2].file->folder().filename() != "parts");
+    CHECK(expansion.root.children[2].file->directory().filename() != "parts");
 }
 
 TEST_CASE("files that cannot be included", "[unit][expand]")

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-#include "plumb/film.h"
+#include "plumb/render/film.h"
 #include "support/catch.h"
 #include "support/random.h"
 

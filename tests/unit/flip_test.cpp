@@ -4,7 +4,7 @@
 // evaluate(reference, test, "LDR" or "HDR", inputsRGB=False, applyMagma=False) on the same float pictures. It computes
 // in float; we differ by less than 3e-5 but where an edge nearly vanishes (1e-4: the square root of a rounding error).
 
-#include "plumb/flip.h"
+#include "compare/flip.h"
 #include "support/catch.h"
 
 using namespace plumb;

@@ -9,19 +9,19 @@ using namespace plumb;
 
 namespace {
 
-// The errors' first lines, without the folder.
+// The errors' first lines, without the directory.
 std::string complaint(const std::string& text, const std::string& name = "a.xml")
 {
-    const TempFolder folder;
+    const TempDirectory directory;
     try {
-        load_scene(folder.write(name, text));
+        load_scene(directory.write(name, text));
     } catch (const SceneError& error) {
         std::string lines;
         for (const Diagnostic& diagnostic : error.diagnostics()) {
             const std::string whole = diagnostic.text();
             lines += whole.substr(0, whole.find('\n')) + "\n";
         }
-        const std::string prefix = folder.path().string() + "/";
+        const std::string prefix = directory.path().string() + "/";
         for (std::size_t i = lines.find(prefix); i != lines.npos; i = lines.find(prefix))
             lines.erase(i, prefix.size());
         return lines;
@@ -56,9 +56,9 @@ TEST_CASE("a scene of Mitsuba gets one error", "[unit][foreign_files]")
 
 TEST_CASE("a scene of Mitsuba that is included gets one error", "[unit][foreign_files]")
 {
-    const TempFolder folder;
-    folder.write("m.xml", "<scene version='2.1.0'><sensor type='perspective'/><rgb/></scene>");
-    const auto main = folder.write("a.xml", test::start + "<include filename='m.xml'/></scene>");
+    const TempDirectory directory;
+    directory.write("m.xml", "<scene version='2.1.0'><sensor type='perspective'/><rgb/></scene>");
+    const auto main = directory.write("a.xml", test::start + "<include filename='m.xml'/></scene>");
     CHECK_THROWS_WITH(load_scene(main),
                       ContainsSubstring("m.xml:1:8: error: this is a scene of Mitsuba 2.1.0") &&
                           !ContainsSubstring("<rgb> is"));

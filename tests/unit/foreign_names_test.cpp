@@ -2,11 +2,11 @@
 
 // What others call things: the table points to what there is, and the messages are what a user sees.
 
-#include "core/lower_case.h"
+#include "base/lower_case.h"
 #include "scene_file/catalog.h"
 #include "scene_file/foreign_names.h"
 #include "scene_file/placement.h"
-#include "scene_file/values.h"
+#include "scene_file/property_values.h"
 #include "support/catch.h"
 #include "support/scene_text.h"
 

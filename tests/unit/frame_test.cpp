@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-#include "plumb/frame.h"
+#include "plumb/math/frame.h"
 
 #include "support/catch.h"
 #include "support/random.h"

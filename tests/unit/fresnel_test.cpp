@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-#include "plumb/fresnel.h"
+#include "bsdfs/fresnel.h"
 
 #include "support/catch.h"
 #include "support/random.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "plumb/hash.h"
+#include "plumb/base/hash.h"
 #include "support/catch.h"
-#include "support/temp_folder.h"
+#include "support/temp_directory.h"
 
 using namespace plumb;
 
@@ -34,10 +34,10 @@ TEST_CASE("hash: SHA-256 of FIPS 180-4's examples, and of files", "[unit][hash]"
     const std::string million(1000000, 'a');
     const std::string expected = "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0";
     CHECK(sha256(million) == expected);
-    const TempFolder folder;
-    CHECK(sha256_of_file(folder.write("a", million)) == expected);
-    CHECK(sha256_of_file(folder.write("b", "abc")) == sha256("abc"));
-    CHECK(sha256_of_file(folder / "none").empty());
+    const TempDirectory directory;
+    CHECK(sha256_of_file(directory.write("a", million)) == expected);
+    CHECK(sha256_of_file(directory.write("b", "abc")) == sha256("abc"));
+    CHECK(sha256_of_file(directory / "none").empty());
 }
 
 TEST_CASE("hash: pieces hash like the whole", "[unit][hash]")

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 
-#include "plumb/error.h"
-#include "plumb/image.h"
+#include "plumb/base/error.h"
+#include "plumb/image/image.h"
 #include "support/catch.h"
-#include "support/temp_folder.h"
+#include "support/temp_directory.h"
 
 #include <chrono>
 #include <csignal>
@@ -62,7 +62,7 @@ Image grey_ramp(int width)
 
 TEST_CASE("EXR files keep every float, the windows and the metadata", "[unit][image]")
 {
-    const TempFolder folder;
+    const TempDirectory directory;
     Image image = numbered({7, 3, 20, 11}, 64, 48);
     image.pixel(8, 4)[0] = 1e30f;
     image.pixel(8, 4)[1] = 1e-40f;
@@ -72,8 +72,8 @@ TEST_CASE("EXR files keep every float, the windows and the metadata", "[unit][im
                       {"plumb:exposure", 0.5f},
                       {"plumb:scene", std::string("cbox.xml")},
                       {"worldToCamera", matrix}};
-    write_image(folder / "a.exr", image);
-    const Image back = read_image(folder / "a.exr", true);
+    write_image(directory / "a.exr", image);
+    const Image back = read_image(directory / "a.exr", true);
     check_same_pixels(image, back, 0.f);
     CHECK(back.full_width() == 64);
     CHECK(back.full_height() == 48);
@@ -88,34 +88,34 @@ TEST_CASE("EXR files keep every float, the windows and the metadata", "[unit][im
     CHECK(*find<std::vector<float>>(back.metadata, "worldToCamera") == matrix);
     REQUIRE(find<std::string>(back.metadata, "compression"));
     CHECK(*find<std::string>(back.metadata, "compression") == "zip");
-    CHECK(folder.files() == std::vector<std::string>{"a.exr"}); // nothing temporary is left
+    CHECK(directory.files() == std::vector<std::string>{"a.exr"}); // nothing temporary is left
 }
 
 TEST_CASE("pictures that are packed fast have the same pixels", "[unit][image]")
 {
-    const TempFolder folder;
+    const TempDirectory directory;
     const Image image = numbered({7, 3, 20, 11}, 64, 48);
-    write_image(folder / "a.exr", image, 0.f, Packing::fast);
-    const Image back = read_image(folder / "a.exr", true);
+    write_image(directory / "a.exr", image, 0.f, Packing::fast);
+    const Image back = read_image(directory / "a.exr", true);
     check_same_pixels(image, back, 0.f);
     CHECK(*find<std::string>(back.metadata, "compression") == "rle");
 }
 
 TEST_CASE("pictures may be written and read at the same time", "[unit][image]")
 {
-    const TempFolder folder;
+    const TempDirectory directory;
     const Image image = numbered({0, 0, 64, 48}, 64, 48);
-    write_image(folder / "alone.exr", image);
+    write_image(directory / "alone.exr", image);
     struct stat before {};
     REQUIRE(fstat(STDERR_FILENO, &before) == 0);
     std::vector<std::future<std::string>> files;
     for (const std::string name : {"a.exr", "b.exr", "c.exr", "d.exr"})
-        files.push_back(std::async(std::launch::async, [&folder, &image, name] {
-            write_image(folder / name, image);
-            read_image(folder / name, false);
-            return read_bytes(folder / name);
+        files.push_back(std::async(std::launch::async, [&directory, &image, name] {
+            write_image(directory / name, image);
+            read_image(directory / name, false);
+            return read_bytes(directory / name);
         }));
-    for (std::future<std::string>& file : files) CHECK(file.get() == read_bytes(folder / "alone.exr"));
+    for (std::future<std::string>& file : files) CHECK(file.get() == read_bytes(directory / "alone.exr"));
     struct stat after {}; // standard error is where it was
     REQUIRE(fstat(STDERR_FILENO, &after) == 0);
     CHECK(after.st_ino == before.st_ino);
@@ -125,33 +125,33 @@ TEST_CASE("the same picture written twice gives the same bytes", "[unit][image]"
 {
     const std::string extension =
         GENERATE(as<std::string>{}, ".exr", ".png", ".jpg", ".jpeg", ".tif", ".tiff", ".hdr");
-    const TempFolder folder;
+    const TempDirectory directory;
     Image image = numbered({0, 0, 40, 30}, 40, 30);
     image.metadata = {{"Software", std::string("Plumb")}, {"worldToCamera", std::vector<float>(16, 1.f)}};
-    write_image(folder / ("a" + extension), image);
+    write_image(directory / ("a" + extension), image);
     const auto begin = std::chrono::system_clock::now(); // time stamps in files have whole seconds
     while (std::chrono::time_point_cast<std::chrono::seconds>(std::chrono::system_clock::now()) ==
            std::chrono::time_point_cast<std::chrono::seconds>(begin))
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    write_image(folder / ("b" + extension), image);
-    CHECK(read_bytes(folder / ("a" + extension)) == read_bytes(folder / ("b" + extension)));
+    write_image(directory / ("b" + extension), image);
+    CHECK(read_bytes(directory / ("a" + extension)) == read_bytes(directory / ("b" + extension)));
 }
 
 TEST_CASE("TIFF files keep every float", "[unit][image]")
 {
-    const TempFolder folder;
+    const TempDirectory directory;
     const Image image = numbered({0, 0, 20, 11}, 20, 11);
-    write_image(folder / "a.tif", image);
-    check_same_pixels(image, read_image(folder / "a.tif", true), 0.f);
+    write_image(directory / "a.tif", image);
+    check_same_pixels(image, read_image(directory / "a.tif", true), 0.f);
 }
 
 TEST_CASE("HDR files keep 8 bits of the largest channel", "[unit][image]")
 {
-    const TempFolder folder;
+    const TempDirectory directory;
     Image image = grey_ramp(200);
     image.pixel(3, 0)[1] = 1000.f;
-    write_image(folder / "a.hdr", image);
-    const Image back = read_image(folder / "a.hdr", true);
+    write_image(directory / "a.hdr", image);
+    const Image back = read_image(directory / "a.hdr", true);
     for (int x = 0; x < 200; ++x)
         for (int c = 0; c < 3; ++c) {
             const float largest =
@@ -162,7 +162,7 @@ TEST_CASE("HDR files keep 8 bits of the largest channel", "[unit][image]")
 
 TEST_CASE("PNG files hold the nearest 8-bit sRGB value, clamped", "[unit][image]")
 {
-    const TempFolder folder;
+    const TempDirectory directory;
     // The curve, solved for the linear value at the border of two 8-bit values, in double precision.
     const auto linear = [](double srgb) {
         return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4);
@@ -184,10 +184,10 @@ TEST_CASE("PNG files hold the nearest 8-bit sRGB value, clamped", "[unit][image]
     for (int y = 0; y < 2; ++y)
         for (int x = 0; x < 256; ++x)
             for (int c = 0; c < 3; ++c) scaled.pixel(x, y)[c] = std::ldexp(image.pixel(x, y)[c], -stops);
-    write_image(folder / "a.png", scaled, static_cast<float>(stops));
+    write_image(directory / "a.png", scaled, static_cast<float>(stops));
 
-    const Image raw = read_image(folder / "a.png", false);
-    const Image decoded = read_image(folder / "a.png", true);
+    const Image raw = read_image(directory / "a.png", false);
+    const Image decoded = read_image(directory / "a.png", true);
     for (int y = 0; y < 2; ++y)
         for (int x = 0; x < 256; ++x)
             for (int c = 0; c < 3; ++c) {
@@ -199,19 +199,19 @@ TEST_CASE("PNG files hold the nearest 8-bit sRGB value, clamped", "[unit][image]
 
 TEST_CASE("JPEG files are near what was written", "[unit][image]")
 {
-    const TempFolder folder;
+    const TempDirectory directory;
     const Image image = grey_ramp(64);
     const std::string name = GENERATE(as<std::string>{}, "a.jpg", "a.JPEG");
-    write_image(folder / name, image);
-    check_same_pixels(image, read_image(folder / name, true), 0.02f);
+    write_image(directory / name, image);
+    check_same_pixels(image, read_image(directory / name, true), 0.02f);
 }
 
 TEST_CASE("formats without windows hold the pixels that exist", "[unit][image]")
 {
-    const TempFolder folder;
+    const TempDirectory directory;
     const std::string name = GENERATE(as<std::string>{}, "a.png", "a.tif", "a.hdr", "a.jpg");
-    write_image(folder / name, numbered({7, 3, 20, 11}, 64, 48));
-    const Image back = read_image(folder / name, false);
+    write_image(directory / name, numbered({7, 3, 20, 11}, 64, 48));
+    const Image back = read_image(directory / name, false);
     CHECK(back.data_window() == PixelRect{0, 0, 20, 11});
     CHECK(back.full_width() == 20);
     CHECK(back.full_height() == 11);
@@ -219,19 +219,19 @@ TEST_CASE("formats without windows hold the pixels that exist", "[unit][image]")
 
 TEST_CASE("grey pictures have one channel, and alpha does not touch the colours", "[unit][image]")
 {
-    const TempFolder folder;
+    const TempDirectory directory;
     Image grey({0, 0, 3, 1}, 3, 1, {"Y"});
     *grey.pixel(1, 0) = 0.25f;
-    write_image(folder / "grey.exr", grey);
-    const Image back = read_image(folder / "grey.exr", false);
+    write_image(directory / "grey.exr", grey);
+    const Image back = read_image(directory / "grey.exr", false);
     CHECK(back.channel_count() == 1);
     CHECK(back.color(1, 0) == Color(0.25f));
 
     Image clear({0, 0, 2, 1}, 2, 1, {"R", "G", "B", "A"});
     for (int c = 0; c < 3; ++c) clear.pixel(1, 0)[c] = 1.f;
     const std::string name = GENERATE(as<std::string>{}, "clear.png", "clear.exr");
-    write_image(folder / name, clear); // alpha is 0 everywhere
-    const Image read = read_image(folder / name, true);
+    write_image(directory / name, clear); // alpha is 0 everywhere
+    const Image read = read_image(directory / name, true);
     REQUIRE(read.channel_count() == 4);
     CHECK(read.pixel(1, 0)[3] == 0.f);
     CHECK(read.color(1, 0) == Color(1.f));
@@ -239,52 +239,52 @@ TEST_CASE("grey pictures have one channel, and alpha does not touch the colours"
 
 TEST_CASE("pictures with many channels are read whole", "[unit][image]")
 {
-    const TempFolder folder;
+    const TempDirectory directory;
     Image image({0, 0, 2, 2}, 2, 2, {"R", "G", "B", "A", "Z", "depth.x"});
     for (int c = 0; c < 6; ++c) image.pixel(1, 1)[c] = static_cast<float>(c);
-    write_image(folder / "many.exr", image);
-    const Image back = read_image(folder / "many.exr", true);
+    write_image(directory / "many.exr", image);
+    const Image back = read_image(directory / "many.exr", true);
     CHECK(back.channel_count() == 6);
     CHECK(back.color(1, 1) == Color(0.f, 1.f, 2.f));
 }
 
 TEST_CASE("a path that cannot be written is found out", "[unit][image]")
 {
-    const TempFolder folder;
+    const TempDirectory directory;
     const auto check = [&](const std::string& name, const std::string& reason) {
-        CHECK_THROWS_WITH(check_image_path(folder / name),
+        CHECK_THROWS_WITH(check_image_path(directory / name),
                           ContainsSubstring(name) && ContainsSubstring(reason));
-        CHECK_THROWS_WITH(write_image(folder / name, Image(2, 2)), ContainsSubstring(reason));
+        CHECK_THROWS_WITH(write_image(directory / name, Image(2, 2)), ContainsSubstring(reason));
     };
     check("a.bmp", "unknown extension '.bmp'; known are .exr, .hdr, .tif, .tiff, .png, .jpg, .jpeg");
     check("a", "the name has no extension; known are .exr");
-    check("none/a.exr", "the folder '" + (folder / "none").string() + "' does not exist");
-    std::filesystem::create_directory(folder / "b.exr");
-    check("b.exr", "a folder of that name exists");
-    folder.write("file", "");
-    check("file/a.exr", "is no folder");
+    check("none/a.exr", "the directory '" + (directory / "none").string() + "' does not exist");
+    std::filesystem::create_directory(directory / "b.exr");
+    check("b.exr", "a directory of that name exists");
+    directory.write("file", "");
+    check("file/a.exr", "is not a directory");
     check("", "no file name");
-    CHECK(folder.files() == std::vector<std::string>{"b.exr", "file"});
-    CHECK_NOTHROW(check_image_path(folder / "good.EXR"));
-    CHECK(folder.files() == std::vector<std::string>{"b.exr", "file"}); // checking leaves nothing behind
+    CHECK(directory.files() == std::vector<std::string>{"b.exr", "file"});
+    CHECK_NOTHROW(check_image_path(directory / "good.EXR"));
+    CHECK(directory.files() == std::vector<std::string>{"b.exr", "file"}); // checking leaves nothing behind
 }
 
 TEST_CASE("writing that fails keeps the file that was there", "[unit][image]")
 {
-    const TempFolder folder;
-    folder.write("a.png", "precious");
+    const TempDirectory directory;
+    directory.write("a.png", "precious");
     // More channels than PNG can hold.
     const Image image({0, 0, 2, 2}, 2, 2, {"A1", "A2", "A3", "A4", "A5", "A6", "A7"});
     std::string message;
     try {
-        write_image(folder / "a.png", image);
+        write_image(directory / "a.png", image);
     } catch (const Error& error) {
         message = error.what();
     }
-    CHECK_THAT(message, ContainsSubstring("cannot write '" + (folder / "a.png").string() + "': "));
+    CHECK_THAT(message, ContainsSubstring("cannot write '" + (directory / "a.png").string() + "': "));
     CHECK(message.find('\n') == std::string::npos);
-    CHECK(read_bytes(folder / "a.png") == "precious");
-    CHECK(folder.files() == std::vector<std::string>{"a.png"});
+    CHECK(read_bytes(directory / "a.png") == "precious");
+    CHECK(directory.files() == std::vector<std::string>{"a.png"});
 }
 
 TEST_CASE("a disk that is full is an error, and nothing is left of the file", "[unit][image]")
@@ -306,50 +306,50 @@ TEST_CASE("a disk that is full is an error, and nothing is left of the file", "[
         }
     };
     const std::string extension = GENERATE(as<std::string>{}, ".exr", ".png", ".jpg", ".tif", ".hdr");
-    const TempFolder folder;
+    const TempDirectory directory;
     const Image image = numbered({0, 0, 64, 64}, 64, 64);
     std::string message;
     {
         const SmallFiles small;
         try {
-            write_image(folder / ("a" + extension), image);
+            write_image(directory / ("a" + extension), image);
         } catch (const Error& error) {
             message = error.what();
         }
     }
-    CHECK(message == "cannot write '" + (folder / ("a" + extension)).string() + "': File too large");
-    CHECK(folder.files().empty());
+    CHECK(message == "cannot write '" + (directory / ("a" + extension)).string() + "': File too large");
+    CHECK(directory.files().empty());
 }
 
 TEST_CASE("broken pictures are errors on one line that name the file", "[unit][image]")
 {
-    const TempFolder folder;
+    const TempDirectory directory;
     const auto check = [&](const std::string& name) {
         try {
-            read_image(folder / name, true);
+            read_image(directory / name, true);
             FAIL("read " << name);
         } catch (const Error& error) {
             const std::string text = error.what();
-            CHECK(text.starts_with("cannot read '" + (folder / name).string() + "': "));
-            CHECK(text.size() > ("cannot read '" + (folder / name).string() + "': ").size());
+            CHECK(text.starts_with("cannot read '" + (directory / name).string() + "': "));
+            CHECK(text.size() > ("cannot read '" + (directory / name).string() + "': ").size());
             CHECK(text.find('\n') == std::string::npos);
             CHECK(text.back() != '.');
         }
     };
     check("missing.png");
-    std::filesystem::create_directory(folder / "folder.png");
-    check("folder.png");
+    std::filesystem::create_directory(directory / "directory.png");
+    check("directory.png");
     check("/dev/zero"); // would never end
     for (const std::string extension : {".png", ".exr", ".hdr", ".tif", ".jpg"}) {
-        folder.write("empty" + extension, "");
+        directory.write("empty" + extension, "");
         check("empty" + extension);
-        folder.write("text" + extension, "this is no picture");
+        directory.write("text" + extension, "this is no picture");
         check("text" + extension);
     }
     for (const std::string extension : {".png", ".exr", ".tif", ".jpg", ".hdr"}) {
-        write_image(folder / ("whole" + extension), numbered({0, 0, 64, 64}, 64, 64));
-        const std::string bytes = read_bytes(folder / ("whole" + extension));
-        folder.write("half" + extension, bytes.substr(0, bytes.size() / 2));
+        write_image(directory / ("whole" + extension), numbered({0, 0, 64, 64}, 64, 64));
+        const std::string bytes = read_bytes(directory / ("whole" + extension));
+        directory.write("half" + extension, bytes.substr(0, bytes.size() / 2));
         check("half" + extension);
     }
 }
@@ -405,10 +405,10 @@ std::string tiff_at(std::uint32_t column, std::uint32_t width)
 // OpenImageIO says of the last two that they were read, and they were not.
 TEST_CASE("pictures far from any corner are read right or refused", "[unit][image]")
 {
-    const TempFolder folder;
+    const TempDirectory directory;
     const auto read = [&](std::uint32_t column) {
-        folder.write("far.tif", tiff_at(column, 200));
-        return read_image(folder / "far.tif", false);
+        directory.write("far.tif", tiff_at(column, 200));
+        return read_image(directory / "far.tif", false);
     };
     for (const std::uint32_t column : {0u, 5u, 1u << 29}) {
         const Image image = read(column);

@@ -2,11 +2,11 @@
 
 // What differs from one kind of processor to another: Embree's instruction sets, and the mode of floating-point numbers.
 
-#include "plumb/instruction_set.h"
+#include "plumb/scene/instruction_set.h"
 
+#include "base/float_mode.h"
 #include "cli/option_rows.h"
-#include "plumb/scene.h"
-#include "scene/float_mode.h"
+#include "plumb/scene/scene.h"
 #include "support/catch.h"
 #include "support/params.h"
 

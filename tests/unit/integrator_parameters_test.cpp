@@ -6,7 +6,7 @@
 #include "support/integrators.h"
 #include "support/lamp.h"
 
-#include "plumb/error.h"
+#include "plumb/base/error.h"
 
 using namespace plumb;
 using namespace plumb::test;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-#include "plumb/intersection.h"
+#include "shapes/intersection.h"
 
 #include "support/catch.h"
 #include "support/random.h"

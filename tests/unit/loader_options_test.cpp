@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What the command line changes of a scene.
 
-#include "plumb/scene_file.h"
+#include "plumb/scene_file/scene_file.h"
 #include "support/catch.h"
 #include "support/scene_text.h"
 

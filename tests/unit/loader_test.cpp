@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "core/memory.h"
-#include "plumb/scene_file.h"
-#include "plumb/surface.h"
+#include "base/memory.h"
+#include "plumb/model/surface.h"
+#include "plumb/scene_file/scene_file.h"
 #include "support/catch.h"
 #include "support/scene_text.h"
-#include "support/temp_folder.h"
+#include "support/temp_directory.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -168,11 +168,12 @@ TEST_CASE("what nobody reads is ignored; with a warning if the picture could be 
 
 TEST_CASE("paths are relative to the file that they stand in", "[unit][loader]")
 {
-    const TempFolder folder;
-    folder.write("meshes/t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-    folder.write("parts/mesh.xml",
-                 "<scene><mesh type='obj'><string name='filename' value='../meshes/t.obj'/></mesh></scene>");
-    const auto path = folder.write("main.xml", start + "<include filename='parts/mesh.xml'/></scene>");
+    const TempDirectory directory;
+    directory.write("meshes/t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    directory.write(
+        "parts/mesh.xml",
+        "<scene><mesh type='obj'><string name='filename' value='../meshes/t.obj'/></mesh></scene>");
+    const auto path = directory.write("main.xml", start + "<include filename='parts/mesh.xml'/></scene>");
     const LoadedScene loaded = load_scene(path);
     CHECK(loaded.job.scene.triangle_count() == 1);
     CHECK(loaded.job.scene.objects()[0].name == "mesh 'obj' (mesh.xml:1)");
@@ -181,13 +182,13 @@ TEST_CASE("paths are relative to the file that they stand in", "[unit][loader]")
 TEST_CASE("the hash of a scene is that of everything it reads", "[unit][loader]")
 {
     const auto hash = [](const std::string& mesh, const std::string& part, const LoadOptions& options = {}) {
-        const TempFolder folder; // each time another one
-        folder.write("t.obj", mesh);
-        folder.write("part.xml", part);
-        const auto path =
-            folder.write("main.xml", start + "<default name='x' value='1'/><include filename='part.xml'/>"
-                                             "<mesh type='obj'><string name='filename' value='t.obj'/></mesh>"
-                                             "</scene>");
+        const TempDirectory directory; // each time another one
+        directory.write("t.obj", mesh);
+        directory.write("part.xml", part);
+        const auto path = directory.write(
+            "main.xml", start + "<default name='x' value='1'/><include filename='part.xml'/>"
+                                "<mesh type='obj'><string name='filename' value='t.obj'/></mesh>"
+                                "</scene>");
         return load_scene(path, options).input_hash;
     };
     const std::string mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
@@ -212,14 +213,14 @@ TEST_CASE("the hash of a scene is that of everything it reads", "[unit][loader]"
 
 TEST_CASE("all errors of all files come at once, in order", "[unit][loader]")
 {
-    const TempFolder folder;
-    folder.write("part.xml",
-                 "<scene>\n<shape type='sphere'><float name='radius' value='x'/></shape></scene>");
-    folder.write("bad.obj", "v 0 0 0\nf 1 1 9\n");
+    const TempDirectory directory;
+    directory.write("part.xml",
+                    "<scene>\n<shape type='sphere'><float name='radius' value='x'/></shape></scene>");
+    directory.write("bad.obj", "v 0 0 0\nf 1 1 9\n");
     const auto path =
-        folder.write("main.xml", "<scene>\n<shape type='ball'/>\n<include filename='part.xml'/>\n"
-                                 "<mesh type='obj'><string name='filename' value='bad.obj'/></mesh>\n"
-                                 "<integrator type='nothing'/>\n</scene>\n");
+        directory.write("main.xml", "<scene>\n<shape type='ball'/>\n<include filename='part.xml'/>\n"
+                                    "<mesh type='obj'><string name='filename' value='bad.obj'/></mesh>\n"
+                                    "<integrator type='nothing'/>\n</scene>\n");
     try {
         load_scene(path);
         FAIL("no error");
@@ -234,11 +235,11 @@ TEST_CASE("all errors of all files come at once, in order", "[unit][loader]")
 
 TEST_CASE("a file that is missing or broken hides no other mistake", "[unit][loader]")
 {
-    const TempFolder folder;
-    folder.write("bad.obj", "f 1 2 3\n");
-    folder.write("bad.png", "no picture");
+    const TempDirectory directory;
+    directory.write("bad.obj", "f 1 2 3\n");
+    directory.write("bad.png", "no picture");
     const std::string name = GENERATE(as<std::string>{}, "none", "bad");
-    const auto path = folder.write(
+    const auto path = directory.write(
         "main.xml",
         "<scene dialect='plumb'>\n<integrator type='normals'/><camera type='perspective'/>\n<mesh "
         "type='obj'>\n"
@@ -283,8 +284,8 @@ TEST_CASE("many thousand mistakes take little time, memory and output", "[unit][
     for (int i = 0; i < 40'000; ++i) inside += "<bogus/>";
     for (int i = 0; i < 3000; ++i)
         shapes += "<shape type='sphere'><bogus/><bogus/><float name='radius' value='-1'/></shape>\n";
-    const TempFolder folder;
-    const auto path = folder.write(
+    const TempDirectory directory;
+    const auto path = directory.write(
         "main.xml", "<scene dialect='plumb'><integrator type='normals'/><camera type='perspective'/>\n" +
                         inside + shapes + "</scene>");
     try {
@@ -321,10 +322,10 @@ TEST_CASE("a picture must fit into memory", "[unit][loader]")
 
 TEST_CASE("scene files that cannot be read", "[unit][loader]")
 {
-    const TempFolder folder;
-    CHECK_THROWS_WITH(load_scene(folder / "none.xml"), ContainsSubstring("there is no file '"));
-    CHECK_THROWS_AS(load_scene(folder / "none.xml"), Error);
-    CHECK_THROWS_WITH(load_scene(folder.path()), ContainsSubstring("is a folder"));
+    const TempDirectory directory;
+    CHECK_THROWS_WITH(load_scene(directory / "none.xml"), ContainsSubstring("there is no file '"));
+    CHECK_THROWS_AS(load_scene(directory / "none.xml"), Error);
+    CHECK_THROWS_WITH(load_scene(directory.path()), ContainsSubstring("is a directory"));
 }
 
 TEST_CASE("an integrator that cannot render the scene is an error at its place", "[unit][loader]")
@@ -345,17 +346,17 @@ TEST_CASE("meshes that are read at the same time give their errors and files in 
           "[unit][loader]")
 {
     const auto scene_with = [](const std::vector<int>& broken) {
-        const TempFolder folder;
+        const TempDirectory directory;
         std::string scene = "<scene><integrator type='normals'/><camera type='perspective'/>\n";
         for (int i = 0; i < 12; ++i) {
             const bool is_broken = std::find(broken.begin(), broken.end(), i) != broken.end();
             // The earlier ones are the longer ones, which take longer.
             const std::string comments(static_cast<std::size_t>(12 - i) * 20000, '#');
-            folder.write(fmt::format("{}.obj", i), "v 0 0 0\nv 1 0 0\nv 0 1 0\n" + comments + "\n" +
-                                                       (is_broken ? "f 1 2\n" : "f 1 2 3\n"));
+            directory.write(fmt::format("{}.obj", i), "v 0 0 0\nv 1 0 0\nv 0 1 0\n" + comments + "\n" +
+                                                          (is_broken ? "f 1 2\n" : "f 1 2 3\n"));
             scene += fmt::format("<mesh type='obj'><string name='filename' value='{}.obj'/></mesh>\n", i);
         }
-        return load_scene(folder.write("scene.xml", scene + "</scene>"));
+        return load_scene(directory.write("scene.xml", scene + "</scene>"));
     };
     const LoadedScene loaded = scene_with({});
     REQUIRE(loaded.inputs.size() == 13);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-#include "plumb/math.h"
+#include "plumb/math/math.h"
 
 #include "support/catch.h"
 #include "support/random.h"

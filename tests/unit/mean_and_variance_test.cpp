@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-#include "plumb/mean_and_variance.h"
+#include "plumb/statistics/mean_and_variance.h"
 #include "support/catch.h"
 #include "support/random.h"
 

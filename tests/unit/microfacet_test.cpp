@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-#include "plumb/microfacet.h"
+#include "bsdfs/microfacet_distribution.h"
 
 #include "support/catch.h"
 #include "support/statistics.h"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 
-#include "io/obj_number.h"
-#include "io/obj_polygon.h"
-#include "plumb/error.h"
-#include "plumb/mesh.h"
+#include "plumb/base/error.h"
+#include "plumb/shapes/mesh.h"
+#include "shapes/obj/obj_number.h"
+#include "shapes/obj/obj_polygon.h"
 #include "support/catch.h"
-#include "support/temp_folder.h"
+#include "support/temp_directory.h"
 
 #include <fmt/format.h>
 
@@ -17,8 +17,8 @@ namespace {
 
 MeshData read_text(const std::string& text)
 {
-    const TempFolder folder;
-    const auto path = folder.write("mesh.obj", text);
+    const TempDirectory directory;
+    const auto path = directory.write("mesh.obj", text);
     return read_obj(path);
 }
 
@@ -339,9 +339,9 @@ TEST_CASE("every mistake in an OBJ file is an error with its place", "[unit][obj
 
 TEST_CASE("OBJ files that cannot be read are errors that name the file", "[unit][obj]")
 {
-    const TempFolder folder;
-    CHECK_THROWS_WITH(read_obj(folder.path() / "none.obj"), ContainsSubstring("none.obj': no such file"));
-    CHECK_THROWS_WITH(read_obj(folder.path()), ContainsSubstring("it is a folder"));
+    const TempDirectory directory;
+    CHECK_THROWS_WITH(read_obj(directory.path() / "none.obj"), ContainsSubstring("none.obj': no such file"));
+    CHECK_THROWS_WITH(read_obj(directory.path()), ContainsSubstring("it is a directory"));
     CHECK_THAT(error_of(""), ContainsSubstring("the file is empty"));
     CHECK_THAT(error_of("\n"), ContainsSubstring("no faces"));
     CHECK_THAT(error_of(square), ContainsSubstring("no faces"));

@@ -2,7 +2,7 @@
 #include "cli/option_rows.h"
 #include "cli/options.h"
 #include "cli/verbs.h"
-#include "plumb/instruction_set.h"
+#include "plumb/scene/instruction_set.h"
 #include "support/catch.h"
 
 #include <cctype>
@@ -305,7 +305,7 @@ TEST_CASE("of every option it is decided what it does to a picture", "[unit][opt
         CHECK(row.effect != Effect::undecided);
         // Only the command line names files.
         const std::string_view value = row.value;
-        if (value.find("FILE") != value.npos || value.find("FOLDER") != value.npos)
+        if (value.find("FILE") != value.npos || value.find("DIRECTORY") != value.npos)
             CHECK(row.effect == Effect::run);
         // An option of `renderer replay` or of the scene changes samples, but for which one is replayed and what is printed.
         if (row.goes_with(Verb::replay) && (row.topic == Topic::scene || row.topic == Topic::picture))

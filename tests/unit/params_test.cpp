@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "plumb/params.h"
+#include "plumb/model/params.h"
 #include "support/catch.h"
 #include "support/params.h"
-#include "support/temp_folder.h"
+#include "support/temp_directory.h"
 
 #include <fstream>
 
@@ -266,13 +266,13 @@ TEST_CASE("messages about a parameter", "[unit][params]")
 
 TEST_CASE("files are found beside the scene file", "[unit][params]")
 {
-    const TempFolder folder;
-    std::filesystem::create_directory(folder.path() / "sub");
-    std::ofstream(folder.path() / "mesh.obj") << "v 0 0 0\n";
+    const TempDirectory directory;
+    std::filesystem::create_directory(directory.path() / "sub");
+    std::ofstream(directory.path() / "mesh.obj") << "v 0 0 0\n";
     Diagnostics diagnostics;
     const Dialect dialect;
     const auto given = [&](const std::string& name) {
-        Params params("mesh", "obj", {}, diagnostics, dialect, folder.path() / "sub");
+        Params params("mesh", "obj", {}, diagnostics, dialect, directory.path() / "sub");
         Property property;
         property.tag = "string";
         property.value = name;
@@ -280,10 +280,10 @@ TEST_CASE("files are found beside the scene file", "[unit][params]")
         return params;
     };
     const Params good = given("../mesh.obj");
-    CHECK(good.file("filename") == folder.path() / "mesh.obj");
+    CHECK(good.file("filename") == directory.path() / "mesh.obj");
     CHECK_FALSE(good.missing_file());
     CHECK(good.files().size() == 1);
-    CHECK(given((folder.path() / "mesh.obj").string()).file("filename") == folder.path() / "mesh.obj");
+    CHECK(given((directory.path() / "mesh.obj").string()).file("filename") == directory.path() / "mesh.obj");
     CHECK(diagnostics.all().empty());
 
     for (const char* wrong : {"mesh.obj", "..", "/dev/zero"}) {
@@ -291,10 +291,10 @@ TEST_CASE("files are found beside the scene file", "[unit][params]")
         params.file("filename");
         CHECK((params.missing_file() && params.files().empty()));
     }
-    const std::string missing = (folder.path() / "sub" / "mesh.obj").string();
+    const std::string missing = (directory.path() / "sub" / "mesh.obj").string();
     REQUIRE(diagnostics.all().size() == 3);
     CHECK(diagnostics.all()[0].message == "filename names a file that does not exist: '" + missing + "'");
-    CHECK_THAT(diagnostics.all()[1].message, ContainsSubstring("filename is a folder, not a file: '"));
+    CHECK_THAT(diagnostics.all()[1].message, ContainsSubstring("filename is a directory, not a file: '"));
     CHECK_THAT(diagnostics.all()[2].message,
                ContainsSubstring("is a device, a pipe or the like, not a file"));
 }

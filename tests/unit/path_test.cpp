@@ -72,7 +72,7 @@ TEST_CASE("roulette looks at the light that is left, not at refraction's scaling
 {
     PathLimits limits;
     limits.roulette_depth = 2;
-    const PathEstimator estimator(PathEstimator::Finder::path, limits);
+    const PathEstimator estimator(PathEstimator::LightStrategy::path, limits);
     PathState path(Vec3f(0.f));
     const std::unique_ptr<Bsdf> bsdf = glass()();
     SurfacePoint point;

@@ -2,7 +2,7 @@
 
 // Every element in every other one: it is taken, or the error says where it belongs, which is where it is taken.
 
-#include "plumb/suite.h"
+#include "plumb/suite_file/suite.h"
 #include "scene_file/placement.h"
 #include "support/catch.h"
 #include "support/scene_text.h"
@@ -75,9 +75,9 @@ std::string file_with(const std::string& parent, const std::string& inner)
 
 std::string complaints(const std::string& text)
 {
-    const TempFolder folder;
-    folder.write("part.xml", text.starts_with("<suite") ? "<suite/>" : "<scene/>");
-    const auto file = folder.write("main.xml", text);
+    const TempDirectory directory;
+    directory.write("part.xml", text.starts_with("<suite") ? "<suite/>" : "<scene/>");
+    const auto file = directory.write("main.xml", text);
     try {
         if (text.starts_with("<suite"))
             load_suite(file, {}, {});

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Cutting polygons into triangles, whatever their kind, size, plane and first corner.
 
-#include "io/obj_polygon.h"
-#include "io/point_tree.h"
+#include "shapes/obj/obj_polygon.h"
+#include "shapes/obj/point_tree.h"
 #include "support/catch.h"
 #include "support/polygons.h"
 

@@ -2,7 +2,7 @@
 
 // check says when a scene lies so far from the origin that floats cannot hold it.
 
-#include "plumb/check.h"
+#include "plumb/check/check.h"
 #include "support/catch.h"
 #include "support/scene_text.h"
 

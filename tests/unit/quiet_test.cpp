@@ -2,8 +2,8 @@
 
 // Standard error while codecs are kept quiet: what they print is lost, and what sanitizers report is not.
 
-#include "core/sanitized.h"
-#include "io/oiio/quiet.h"
+#include "base/sanitized.h"
+#include "image/oiio/quiet.h"
 #include "support/catch.h"
 #include "support/run.h"
 
@@ -22,8 +22,9 @@ constexpr const char* variable = "PLUMB_TEST_FAULT";
 // This test once more, in a process that is told what to do. What it writes to standard error.
 std::string errors_of(const char* test, const std::string& fault)
 {
-    const TempFolder folder;
-    return run_program({"/proc/self/exe", test}, folder.path(), "", {}, {std::string(variable) + "=" + fault})
+    const TempDirectory directory;
+    return run_program({"/proc/self/exe", test}, directory.path(), "", {},
+                       {std::string(variable) + "=" + fault})
         .err;
 }
 

@@ -2,8 +2,8 @@
 
 #include "cli/race_statistics.h"
 
-#include "plumb/mean_and_variance.h"
-#include "plumb/statistics.h"
+#include "plumb/statistics/mean_and_variance.h"
+#include "plumb/statistics/statistics.h"
 #include "support/catch.h"
 #include "support/random.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 
-#include "plumb/ray.h"
+#include "plumb/math/ray.h"
 
-#include "plumb/surface.h"
+#include "plumb/model/surface.h"
 #include "support/catch.h"
 #include "support/random.h"
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Files that a scene may name and that must not be read, through every door that reads files.
 
-#include "io/regular_file.h"
-#include "plumb/image.h"
-#include "plumb/mesh.h"
-#include "plumb/scene_file.h"
-#include "plumb/suite.h"
-#include "plumb/test_file.h"
+#include "base/regular_file.h"
+#include "plumb/image/image.h"
+#include "plumb/scene_file/scene_file.h"
+#include "plumb/shapes/mesh.h"
+#include "plumb/suite_file/suite.h"
+#include "plumb/test_file/test_file.h"
 #include "scene_file/document.h"
 #include "support/catch.h"
-#include "support/temp_folder.h"
+#include "support/temp_directory.h"
 
 #include <fcntl.h>
 #include <functional>
@@ -32,9 +32,9 @@ std::string complaint(const std::function<void()>& read)
 // What each of the program's readers says of the file.
 std::vector<std::string> complaints(const std::filesystem::path& path)
 {
-    const TempFolder folder;
+    const TempDirectory directory;
     const auto including = [&](const std::string& element) {
-        return folder.write(
+        return directory.write(
             "main.xml", "<scene dialect='plumb'><integrator type='normals'/><camera type='perspective'/>" +
                             element + "</scene>");
     };
@@ -74,8 +74,8 @@ std::vector<std::string> complaints(const std::filesystem::path& path)
 
 TEST_CASE("pipes and devices are not read, whoever names them", "[unit][files]")
 {
-    const TempFolder folder;
-    const auto pipe = folder / "pipe.png"; // nobody writes into it: opening it to read would never end
+    const TempDirectory directory;
+    const auto pipe = directory / "pipe.png"; // nobody writes into it: opening it to read would never end
     REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
     for (const std::filesystem::path& path :
          {pipe, std::filesystem::path("/dev/zero"), std::filesystem::path("/dev/full")})
@@ -85,9 +85,9 @@ TEST_CASE("pipes and devices are not read, whoever names them", "[unit][files]")
 
 TEST_CASE("what a Git LFS pointer stands for is missing, and is said to be", "[unit][files]")
 {
-    const TempFolder folder;
+    const TempDirectory directory;
     for (const std::string extension : {".xml", ".obj", ".png", ".jpg", ".exr", ".hdr", ".tif"}) {
-        const auto path = folder.write(
+        const auto path = directory.write(
             "a" + extension, "version https://git-lfs.github.com/spec/v1\n"
                              "oid sha256:4d7a214614ab2935c943f9e0ff69d22eadbb8f32b1258daaa5e2ca24d17e2393\n"
                              "size 12345\n");
@@ -98,10 +98,10 @@ TEST_CASE("what a Git LFS pointer stands for is missing, and is said to be", "[u
         CHECK_THAT(complaint([&] { read_image(path, false); }), ContainsSubstring("Git LFS pointer"));
     }
     // Not every text about LFS is one.
-    CHECK(problem_of_file(folder.write("long.txt", "version https://git-lfs.github.com/spec/v1\n" +
-                                                       std::string(1024, 'x')))
+    CHECK(problem_of_file(directory.write("long.txt", "version https://git-lfs.github.com/spec/v1\n" +
+                                                          std::string(1024, 'x')))
               .empty());
-    CHECK(problem_of_file(folder.write("other.txt", "versions")).empty());
+    CHECK(problem_of_file(directory.write("other.txt", "versions")).empty());
 }
 
 TEST_CASE("what this process knows is not shown to whoever names a file under /proc", "[unit][files]")
@@ -122,7 +122,7 @@ TEST_CASE("what this process knows is not shown to whoever names a file under /p
 
 TEST_CASE("of a file that is not a scene nothing is shown", "[unit][files]")
 {
-    const TempFolder folder;
+    const TempDirectory directory;
     const std::string secret =
         GENERATE(as<std::string>{}, "root:hushhush:0\n", "hushhush=1\nx=2\n",
                  "<settings><password>hushhush</password></settings>\n", "<settings>\n<hushhush",
@@ -130,7 +130,7 @@ TEST_CASE("of a file that is not a scene nothing is shown", "[unit][files]")
                  "<?xml version='1.0'?><!DOCTYPE hushhush><settings hushhush='1' hushhush='2'/>",
                  "</hush hushhush", "\xEF\xBB\xBF<settings>hushhush</settings>", "[core]\n\thushhush = 1\n",
                  "\xff\xfehushhush", "hushhush");
-    for (const std::string& text : complaints(folder.write("secret.xml", secret))) {
+    for (const std::string& text : complaints(directory.write("secret.xml", secret))) {
         CAPTURE(secret, text);
         CHECK(text.find("hushhush") == text.npos);
     }
@@ -138,17 +138,17 @@ TEST_CASE("of a file that is not a scene nothing is shown", "[unit][files]")
 
 TEST_CASE("a regular file is read as it was when it was opened", "[unit][files]")
 {
-    const TempFolder folder;
-    const auto path = folder.write("a.txt", "0123456789");
+    const TempDirectory directory;
+    const auto path = directory.write("a.txt", "0123456789");
     const RegularFile file(path);
     CHECK(file.size() == 10);
     char bytes[4];
     file.read(5, bytes);
     CHECK(std::string(bytes, 4) == "5678");
-    folder.write("a.txt", "0123456"); // the same file, now shorter
+    directory.write("a.txt", "0123456"); // the same file, now shorter
     CHECK_THROWS_WITH(file.read(5, bytes), "cannot read '" + path.string() + "': the file ends early");
-    CHECK_THROWS_WITH(RegularFile(folder / "none"),
-                      "cannot read '" + (folder / "none").string() + "': no such file");
-    CHECK_THROWS_WITH(RegularFile(folder.path()), ContainsSubstring("it is a folder"));
-    CHECK(problem_of_file(folder / "none") == "no such file");
+    CHECK_THROWS_WITH(RegularFile(directory / "none"),
+                      "cannot read '" + (directory / "none").string() + "': no such file");
+    CHECK_THROWS_WITH(RegularFile(directory.path()), ContainsSubstring("it is a directory"));
+    CHECK(problem_of_file(directory / "none") == "no such file");
 }

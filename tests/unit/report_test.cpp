@@ -3,7 +3,7 @@
 #include "cli/report.h"
 #include "cli/text_file.h"
 #include "support/catch.h"
-#include "support/temp_folder.h"
+#include "support/temp_directory.h"
 
 #include <cstdlib>
 #include <limits>
@@ -150,24 +150,24 @@ TEST_CASE("a report notes the machine", "[unit][json]")
 
 TEST_CASE("a text file appears whole or not at all", "[unit][text_file]")
 {
-    const TempFolder folder;
-    const std::filesystem::path file = folder / "report.json";
+    const TempDirectory directory;
+    const std::filesystem::path file = directory / "report.json";
 
     check_text_path(file);
-    CHECK(folder.files().empty()); // checking leaves nothing behind
+    CHECK(directory.files().empty()); // checking leaves nothing behind
     write_text_file(file, "one\n");
     CHECK(read_bytes(file) == "one\n");
     check_text_path(file);
     CHECK(read_bytes(file) == "one\n"); // nor does it touch what is there
     write_text_file(file, "two\n");
     CHECK(read_bytes(file) == "two\n");
-    CHECK(folder.files() == std::vector<std::string>{"report.json"});
+    CHECK(directory.files() == std::vector<std::string>{"report.json"});
 
     SECTION("a link stays one")
     {
-        std::filesystem::create_symlink(file, folder / "link.json");
-        write_text_file(folder / "link.json", "three\n");
-        CHECK(std::filesystem::is_symlink(folder / "link.json"));
+        std::filesystem::create_symlink(file, directory / "link.json");
+        write_text_file(directory / "link.json", "three\n");
+        CHECK(std::filesystem::is_symlink(directory / "link.json"));
         CHECK(read_bytes(file) == "three\n");
     }
     SECTION("a device stays one")
@@ -178,7 +178,7 @@ TEST_CASE("a text file appears whole or not at all", "[unit][text_file]")
     }
     SECTION("what cannot be written is an error that says why")
     {
-        const std::string folder_name = folder.path().string();
+        const std::string directory_name = directory.path().string();
         const auto problem = [](const std::filesystem::path& path) -> std::string {
             try {
                 check_text_path(path);
@@ -187,11 +187,11 @@ TEST_CASE("a text file appears whole or not at all", "[unit][text_file]")
             }
             return "no error";
         };
-        CHECK(problem(folder.path()) == "cannot write '" + folder_name + "': Is a directory");
-        CHECK(problem(folder / "no/a.json") ==
-              "cannot write '" + folder_name + "/no/a.json': No such file or directory");
+        CHECK(problem(directory.path()) == "cannot write '" + directory_name + "': Is a directory");
+        CHECK(problem(directory / "no/a.json") ==
+              "cannot write '" + directory_name + "/no/a.json': No such file or directory");
         CHECK(problem(file / "a.json") == "cannot write '" + file.string() + "/a.json': Not a directory");
-        CHECK_THAT(problem(folder / std::string(300, 'x')), ContainsSubstring("File name too long"));
-        CHECK(folder.files() == std::vector<std::string>{"report.json"});
+        CHECK_THAT(problem(directory / std::string(300, 'x')), ContainsSubstring("File name too long"));
+        CHECK(directory.files() == std::vector<std::string>{"report.json"});
     }
 }

@@ -2,7 +2,7 @@
 
 // Sets of samples against sets of single samples, and the parts that pictures are cut into.
 
-#include "plumb/sample_set.h"
+#include "plumb/render/sample_set.h"
 #include "support/catch.h"
 #include "support/random.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-#include "plumb/sampling.h"
+#include "plumb/sampling/sampling.h"
 
 #include "support/catch.h"
 #include "support/random.h"

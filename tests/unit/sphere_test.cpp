@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-#include "plumb/shape.h"
+#include "plumb/model/shape.h"
 
 #include "support/catch.h"
 #include "support/params.h"

@@ -2,12 +2,12 @@
 
 // Renderings that are written to disk and read again.
 
-#include "io/temporary_file.h"
-#include "plumb/error.h"
-#include "plumb/state_file.h"
+#include "base/temporary_file.h"
+#include "plumb/base/error.h"
+#include "plumb/render/state_file.h"
 #include "support/catch.h"
 #include "support/random.h"
-#include "support/temp_folder.h"
+#include "support/temp_directory.h"
 
 #include <algorithm>
 #include <cstring>
@@ -46,12 +46,12 @@ RenderState noise(std::uint64_t seed, bool large, const SampleBlock& block)
     return state;
 }
 
-std::filesystem::path write(const TempFolder& folder, const RenderState& state)
+std::filesystem::path write(const TempDirectory& directory, const RenderState& state)
 {
-    TemporaryFile file(folder / "state.exr");
+    TemporaryFile file(directory / "state.exr");
     file.write(std::span<const unsigned char>(encode_state(state, resolution, header)));
     file.take_place();
-    return folder / "state.exr";
+    return directory / "state.exr";
 }
 
 bool same_film(const Film& a, const Film& b)
@@ -81,10 +81,10 @@ std::string problem(const std::filesystem::path& path)
 TEST_CASE("a rendering comes back from disk bit for bit", "[unit][state_file]")
 {
     const bool large = GENERATE(false, true);
-    const TempFolder folder;
+    const TempDirectory directory;
     const RenderState state = noise(1, large, {window, 0, 8});
     REQUIRE(state.film.has_large_squares() == large);
-    const std::filesystem::path path = write(folder, state);
+    const std::filesystem::path path = write(directory, state);
     const StateFile read = read_state(path);
 
     CHECK(same_film(read.state.film, state.film));
@@ -119,9 +119,9 @@ TEST_CASE("a rendering comes back from disk bit for bit", "[unit][state_file]")
 
 TEST_CASE("a rendering without a sample comes back from disk", "[unit][state_file]")
 {
-    const TempFolder folder;
+    const TempDirectory directory;
     const RenderState nothing{Film(window, resolution.x, resolution.y), {}, {}, {}};
-    const StateFile read = read_state(write(folder, nothing));
+    const StateFile read = read_state(write(directory, nothing));
     CHECK(same_film(read.state.film, nothing.film));
     CHECK(read.state.taken.empty());
 }
@@ -148,8 +148,8 @@ TEST_CASE("films add up as if they were one", "[unit][state_file][film]")
 
 TEST_CASE("a damaged state file is found out", "[unit][state_file]")
 {
-    const TempFolder folder;
-    const std::filesystem::path path = write(folder, noise(1, false, {window, 0, 2}));
+    const TempDirectory directory;
+    const std::filesystem::path path = write(directory, noise(1, false, {window, 0, 2}));
     const std::string good = read_bytes(path);
     REQUIRE(problem(path) == "no error");
 
@@ -161,13 +161,13 @@ TEST_CASE("a damaged state file is found out", "[unit][state_file]")
         for (int i = 0; i < rounds; ++i) {
             std::string bad = good;
             bad[static_cast<std::size_t>(random.next_double() * double(bad.size()))] ^= char(1 << (i % 8));
-            folder.write("bad.exr", bad);
-            if (problem(folder / "bad.exr") != "no error") {
+            directory.write("bad.exr", bad);
+            if (problem(directory / "bad.exr") != "no error") {
                 ++found;
                 continue;
             }
             // What the header has for viewers only may change: nothing of the state has.
-            const StateFile read = read_state(folder / "bad.exr");
+            const StateFile read = read_state(directory / "bad.exr");
             CHECK(same_film(read.state.film, read_state(path).state.film));
             CHECK(read.state.taken == read_state(path).state.taken);
         }
@@ -176,11 +176,11 @@ TEST_CASE("a damaged state file is found out", "[unit][state_file]")
     SECTION("wherever it ends")
     {
         for (const double share : {0.0, 0.001, 0.01, 0.1, 0.5, 0.9, 0.999}) {
-            folder.write("bad.exr", good.substr(0, static_cast<std::size_t>(share * double(good.size()))));
-            CHECK(problem(folder / "bad.exr") != "no error");
+            directory.write("bad.exr", good.substr(0, static_cast<std::size_t>(share * double(good.size()))));
+            CHECK(problem(directory / "bad.exr") != "no error");
         }
-        folder.write("bad.exr", good.substr(0, good.size() - 1));
-        CHECK(problem(folder / "bad.exr") != "no error");
+        directory.write("bad.exr", good.substr(0, good.size() - 1));
+        CHECK(problem(directory / "bad.exr") != "no error");
     }
     SECTION("if a channel has another's name")
     {
@@ -189,15 +189,15 @@ TEST_CASE("a damaged state file is found out", "[unit][state_file]")
         REQUIRE(name != std::string::npos);
         REQUIRE(bad.find("squares.B.3") == std::string::npos);
         bad.replace(name, 11, "squares.B.3");
-        folder.write("bad.exr", bad);
-        CHECK(problem(folder / "bad.exr") == "it is damaged: its hash is wrong");
+        directory.write("bad.exr", bad);
+        CHECK(problem(directory / "bad.exr") == "it is damaged: its hash is wrong");
     }
     SECTION("and what is none is said to be none")
     {
         Image image(4, 4);
-        write_image(folder / "picture.exr", image);
-        CHECK(problem(folder / "picture.exr") == "it is no checkpoint and no part of a picture");
-        CHECK(problem(folder / "none.exr") == "no such file");
-        CHECK(problem(folder.path()) == "it is a folder");
+        write_image(directory / "picture.exr", image);
+        CHECK(problem(directory / "picture.exr") == "it is no checkpoint and no part of a picture");
+        CHECK(problem(directory / "none.exr") == "no such file");
+        CHECK(problem(directory.path()) == "it is a directory");
     }
 }

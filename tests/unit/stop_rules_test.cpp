@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-#include "plumb/stop_rules.h"
+#include "plumb/render/stop_rules.h"
 #include "support/catch.h"
 
 using namespace plumb;
@@ -8,20 +8,22 @@ using namespace plumb;
 TEST_CASE("the noise is looked at after fixed numbers of samples", "[unit][stop_rules]")
 {
     std::vector<std::uint64_t> looks;
-    for (std::uint64_t samples = 0; samples < 320;) looks.push_back(samples = next_look(samples));
+    for (std::uint64_t samples = 0; samples < 320;)
+        looks.push_back(samples = next_convergence_check(samples));
     CHECK(looks == std::vector<std::uint64_t>{16, 32, 48, 64, 80, 96, 112, 128, 160, 192, 224, 256, 320});
 
     // From wherever an interruption left it, the next look is one of them.
     std::uint64_t look = 0;
     for (std::uint64_t samples = 0; samples < 5000; ++samples) {
-        if (samples == look) look = next_look(look);
-        REQUIRE(next_look(samples) == look);
-        REQUIRE(is_look(look));
-        REQUIRE(is_look(samples) == (samples > 0 && next_look(samples - 1) == samples));
+        if (samples == look) look = next_convergence_check(look);
+        REQUIRE(next_convergence_check(samples) == look);
+        REQUIRE(is_convergence_check(look));
+        REQUIRE(is_convergence_check(samples) ==
+                (samples > 0 && next_convergence_check(samples - 1) == samples));
     }
     // Waiting for a look costs at most a quarter.
-    for (std::uint64_t samples = 64; samples < film_max_samples; samples = next_look(samples))
-        REQUIRE(next_look(samples) <= samples + samples / 4);
+    for (std::uint64_t samples = 64; samples < film_max_samples; samples = next_convergence_check(samples))
+        REQUIRE(next_convergence_check(samples) <= samples + samples / 4);
 }
 
 TEST_CASE("how far a rendering goes next", "[unit][stop_rules]")

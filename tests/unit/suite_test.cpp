@@ -5,9 +5,9 @@
 #include "cli/batch/picture_data.h"
 #include "cli/batch/plan.h"
 #include "cli/batch/result.h"
-#include "plumb/suite.h"
+#include "plumb/suite_file/suite.h"
 #include "support/catch.h"
-#include "support/temp_folder.h"
+#include "support/temp_directory.h"
 
 #include <limits>
 
@@ -17,14 +17,14 @@ namespace {
 
 using Texts = std::vector<std::string>;
 
-struct SuiteFolder : TempFolder {
+struct SuiteDirectory : TempDirectory {
     std::vector<BatchJob> plan(const std::string& xml,
                                const std::map<std::string, std::string>& definitions = {}) const
     {
         return plan_batch(write("suite.xml", xml).string(), definitions);
     }
 
-    // "name: command", one for each entry, without this folder.
+    // "name: command", one for each entry, without this directory.
     Texts commands(const std::string& xml, const std::map<std::string, std::string>& definitions = {}) const
     {
         Texts texts;
@@ -63,19 +63,20 @@ struct SuiteFolder : TempFolder {
 
 TEST_CASE("an entry of a suite is a command", "[unit][suite]")
 {
-    const SuiteFolder folder;
-    CHECK(folder.commands("<suite><render scene='a/b.xml'/></suite>") == Texts{"b: renderer a/b.xml"});
-    CHECK(folder.commands("<suite><render scene='b.xml' spp='1, 16 64' name='x/y' max='rmse=1'/></suite>") ==
-          Texts{"x/y_1: renderer b.xml --spp 1", "x/y_16: renderer b.xml --spp 16",
-                "x/y_64: renderer b.xml --spp 64"});
-    CHECK(folder.commands("<suite><render scene='b.xml' no-variance='true' lenient='false' size='4x3'>"
-                          "<define name='a' value='1 2'/></render></suite>") ==
+    const SuiteDirectory directory;
+    CHECK(directory.commands("<suite><render scene='a/b.xml'/></suite>") == Texts{"b: renderer a/b.xml"});
+    CHECK(
+        directory.commands("<suite><render scene='b.xml' spp='1, 16 64' name='x/y' max='rmse=1'/></suite>") ==
+        Texts{"x/y_1: renderer b.xml --spp 1", "x/y_16: renderer b.xml --spp 16",
+              "x/y_64: renderer b.xml --spp 64"});
+    CHECK(directory.commands("<suite><render scene='b.xml' no-variance='true' lenient='false' size='4x3'>"
+                             "<define name='a' value='1 2'/></render></suite>") ==
           Texts{"b: renderer b.xml --define 'a=1 2' --no-variance --size 4x3"});
 }
 
 TEST_CASE("what a group says holds inside it", "[unit][suite]")
 {
-    const SuiteFolder folder;
+    const SuiteDirectory directory;
     const std::string xml = "<suite spp='4' seed='$seed'>"
                             "  <default name='seed' value='9'/>"
                             "  <define name='a' value='0'/>"
@@ -86,62 +87,63 @@ TEST_CASE("what a group says holds inside it", "[unit][suite]")
                             "  </group>"
                             "  <render scene='b.xml'/>"
                             "</suite>";
-    CHECK(folder.commands(xml) == Texts{"g/h/b: renderer b.xml --define a=1 --seed 2",
-                                        "g/b_4: renderer b.xml --define a=2 --seed 2 --spp 4",
-                                        "b_4: renderer b.xml --define a=0 --seed 9 --spp 4"});
-    CHECK(folder.commands(xml, {{"seed", "5"}}).back() ==
+    CHECK(directory.commands(xml) == Texts{"g/h/b: renderer b.xml --define a=1 --seed 2",
+                                           "g/b_4: renderer b.xml --define a=2 --seed 2 --spp 4",
+                                           "b_4: renderer b.xml --define a=0 --seed 9 --spp 4"});
+    CHECK(directory.commands(xml, {{"seed", "5"}}).back() ==
           "b_4: renderer b.xml --define a=0 --seed 5 --spp 4");
 }
 
 TEST_CASE("references of a suite", "[unit][suite]")
 {
-    const SuiteFolder folder;
-    const std::vector<BatchJob> jobs = folder.plan(
+    const SuiteDirectory directory;
+    const std::vector<BatchJob> jobs = directory.plan(
         "<suite spp='4' seed='1' reference='ref/*.exr' reference-spp='64' reference-seed='2' size='8x8'>"
         "<group name='g'><render scene='a.xml' exact='B' max='rmse=0.1,flip=1' no-verdict='true'/></group>"
         "<render scene='b.xml' reference='c.exr' reference-spp=''/>"
         "<render scene='c.xml' reference=''/></suite>");
     REQUIRE(jobs.size() == 3);
-    CHECK(folder.inside(jobs[0].entry.reference.string()) == "ref/g/a.exr");
-    CHECK(folder.inside(command_text(jobs[0].reference_words)) ==
+    CHECK(directory.inside(jobs[0].entry.reference.string()) == "ref/g/a.exr");
+    CHECK(directory.inside(command_text(jobs[0].reference_words)) ==
           "renderer a.xml --size 8x8 --seed 2 --spp 64");
     CHECK(jobs[0].compare_words == Texts{"--exact", "B", "--max", "rmse=0.1,flip=1", "--no-verdict"});
-    CHECK(folder.inside(jobs[1].entry.reference.string()) == "c.exr");
-    CHECK(folder.inside(command_text(jobs[1].reference_words)) ==
+    CHECK(directory.inside(jobs[1].entry.reference.string()) == "c.exr");
+    CHECK(directory.inside(command_text(jobs[1].reference_words)) ==
           "renderer b.xml --size 8x8 --spp 4 --seed 2");
     CHECK(jobs[2].entry.reference.empty());
 }
 
 TEST_CASE("a suite takes all scenes that match", "[unit][suite]")
 {
-    const SuiteFolder folder;
+    const SuiteDirectory directory;
     for (const char* name : {"scenes/b.xml", "scenes/a.xml", "scenes/a.txt", "scenes/deep/c.xml"})
-        folder.write(name, "");
-    CHECK(folder.commands("<suite><render scene='scenes/*.xml'/></suite>") ==
+        directory.write(name, "");
+    CHECK(directory.commands("<suite><render scene='scenes/*.xml'/></suite>") ==
           Texts{"a: renderer scenes/a.xml", "b: renderer scenes/b.xml"});
-    CHECK(folder.commands("<suite><render scene='scenes/?.xml' name='all' spp='2'/></suite>") ==
+    CHECK(directory.commands("<suite><render scene='scenes/?.xml' name='all' spp='2'/></suite>") ==
           Texts{"all/a_2: renderer scenes/a.xml --spp 2", "all/b_2: renderer scenes/b.xml --spp 2"});
-    CHECK(folder.complaint("<suite><render scene='scenes/*.scene'/></suite>") ==
+    CHECK(directory.complaint("<suite><render scene='scenes/*.scene'/></suite>") ==
           "suite.xml:1:23: error: no file matches 'scenes/*.scene'");
 }
 
 TEST_CASE("a suite includes others", "[unit][suite]")
 {
-    const SuiteFolder folder;
-    folder.write("parts/more.xml",
-                 "<suite><default name='n' value='3'/><render scene='b.xml' spp='$n'/></suite>");
-    folder.write("parts/scene.xml", "<scene/>");
-    CHECK(folder.commands("<suite><group seed='1'><include filename='parts/more.xml'/></group></suite>") ==
+    const SuiteDirectory directory;
+    directory.write("parts/more.xml",
+                    "<suite><default name='n' value='3'/><render scene='b.xml' spp='$n'/></suite>");
+    directory.write("parts/scene.xml", "<scene/>");
+    CHECK(directory.commands("<suite><group seed='1'><include filename='parts/more.xml'/></group></suite>") ==
           Texts{"b_3: renderer parts/b.xml --seed 1 --spp 3"});
-    CHECK(folder.complaint("<suite><include filename='parts/scene.xml'/><render scene='a.xml'/></suite>") ==
-          "parts/scene.xml:1:1: error: the root of an included file must be <suite>, not <scene>");
-    CHECK(folder.complaint("<suite><render scene='a.xml'/></suite>", {{"x", "1"}}) ==
+    CHECK(
+        directory.complaint("<suite><include filename='parts/scene.xml'/><render scene='a.xml'/></suite>") ==
+        "parts/scene.xml:1:1: error: the root of an included file must be <suite>, not <scene>");
+    CHECK(directory.complaint("<suite><render scene='a.xml'/></suite>", {{"x", "1"}}) ==
           "error: -D x=1: no file of this suite uses $x");
 }
 
 TEST_CASE("what is wrong with a suite", "[unit][suite]")
 {
-    const SuiteFolder folder;
+    const SuiteDirectory directory;
     const std::pair<const char*, const char*> cases[] = {
         {"<suite/>", R"(suite.xml:1:1: error: the suite is empty; it needs a <render scene="..."/>)"},
         {"<suite><group name='a'/></suite>",
@@ -176,7 +178,7 @@ TEST_CASE("what is wrong with a suite", "[unit][suite]")
          R"(suite.xml:1:30: error: <define> needs an attribute 'value': <define value="..." .../>)"},
         {"<suite><render scene='a.xml' name='../a'/></suite>",
          "suite.xml:1:36: error: '../a' cannot name a picture; names are those of a file in the output "
-         "folder, such as "
+         "directory, such as "
          "box or hw4/box, without an ending"},
         {"<suite><render scene='a.xml' spp=' , '/></suite>",
          "suite.xml:1:35: error: spp needs a number of samples per pixel"},
@@ -192,10 +194,10 @@ TEST_CASE("what is wrong with a suite", "[unit][suite]")
     };
     for (const auto& [xml, expected] : cases) {
         CAPTURE(xml);
-        CHECK(folder.complaint(xml) == expected);
+        CHECK(directory.complaint(xml) == expected);
     }
-    CHECK_THROWS_WITH(plan_batch((folder / "none.xml").string(), {}),
-                      "there is no file '" + (folder / "none.xml").string() + "'");
+    CHECK_THROWS_WITH(plan_batch((directory / "none.xml").string(), {}),
+                      "there is no file '" + (directory / "none.xml").string() + "'");
 }
 
 TEST_CASE("patterns", "[unit][suite]")
@@ -283,8 +285,8 @@ TEST_CASE("the exit code of a batch is its worst verdict's", "[unit][suite]")
 
 TEST_CASE("a suite may have ten thousand sample counts", "[unit][batch]")
 {
-    const SuiteFolder folder;
+    const SuiteDirectory directory;
     std::string counts;
     for (int i = 1; i <= 10000; ++i) counts += std::to_string(i) + " ";
-    CHECK(folder.plan("<suite><render scene=\"a.xml\" spp=\"" + counts + "\"/></suite>").size() == 10000);
+    CHECK(directory.plan("<suite><render scene=\"a.xml\" spp=\"" + counts + "\"/></suite>").size() == 10000);
 }

@@ -3,7 +3,7 @@
 // The program's survival functions: against closed forms, the values of another program, and those of the tests, which
 // use libm.
 
-#include "plumb/statistics.h"
+#include "plumb/statistics/statistics.h"
 #include "support/catch.h"
 #include "support/statistics.h"
 

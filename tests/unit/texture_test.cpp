@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 
-#include "plumb/image.h"
+#include "plumb/image/image.h"
 #include "support/catch.h"
 #include "support/params.h"
 #include "support/random.h"
-#include "support/temp_folder.h"
+#include "support/temp_directory.h"
 
 namespace plumb {
 class Checker;
@@ -184,11 +184,11 @@ TEST_CASE("constant textures", "[unit][texture]")
 
 TEST_CASE("textmap reads against u and v, undecoded, with texels at whole coordinates", "[unit][texture]")
 {
-    const TempFolder folder;
-    write_image(folder / "a.png", small_picture());
+    const TempDirectory directory;
+    write_image(directory / "a.png", small_picture());
     const Color tint(1.f, 0.5f, 0.25f);
     const auto texture = ParamsBuilder("texture", "textmap")
-                             .folder(folder.path())
+                             .directory(directory.path())
                              .string("filename", "a.png")
                              .color("color", tint)
                              .build<TextMap, Texture>();
@@ -209,10 +209,10 @@ TEST_CASE("textmap reads against u and v, undecoded, with texels at whole coordi
 
 TEST_CASE("textmap warns of the scales that the course ignores", "[unit][texture]")
 {
-    const TempFolder folder;
-    write_image(folder / "a.png", small_picture());
+    const TempDirectory directory;
+    write_image(directory / "a.png", small_picture());
     const auto builder =
-        ParamsBuilder("texture", "textmap").folder(folder.path()).string("filename", "a.png");
+        ParamsBuilder("texture", "textmap").directory(directory.path()).string("filename", "a.png");
     CHECK(ParamsBuilder(builder)
               .number("scalex", 1.0)
               .number("scaley", 1.0)
@@ -225,11 +225,11 @@ TEST_CASE("textmap warns of the scales that the course ignores", "[unit][texture
 
 TEST_CASE("imagetexture_color3f shows pictures upright and decoded", "[unit][texture]")
 {
-    const TempFolder folder;
-    write_image(folder / "a.png", small_picture());
+    const TempDirectory directory;
+    write_image(directory / "a.png", small_picture());
     const bool raw = GENERATE(false, true);
     const auto texture = ParamsBuilder("texture", "imagetexture_color3f")
-                             .folder(folder.path())
+                             .directory(directory.path())
                              .string("filepath", "a.png")
                              .boolean("raw", raw)
                              .build<ImageTexture, Texture>();
@@ -247,12 +247,12 @@ TEST_CASE("imagetexture_color3f shows pictures upright and decoded", "[unit][tex
 
 TEST_CASE("image textures of floats are not decoded", "[unit][texture]")
 {
-    const TempFolder folder;
+    const TempDirectory directory;
     Image image(1, 1);
     for (int c = 0; c < 3; ++c) image.pixel(0, 0)[c] = 0.5f;
-    write_image(folder / "a.exr", image);
+    write_image(directory / "a.exr", image);
     const auto texture = ParamsBuilder("texture", "imagetexture_color3f")
-                             .folder(folder.path())
+                             .directory(directory.path())
                              .string("filepath", "a.exr")
                              .build<ImageTexture, Texture>();
     CHECK(texture->color({0.2f, 0.9f}) == Color(0.5f));
@@ -260,12 +260,13 @@ TEST_CASE("image textures of floats are not decoded", "[unit][texture]")
 
 TEST_CASE("image textures with values that are not finite are errors", "[unit][texture]")
 {
-    const TempFolder folder;
+    const TempDirectory directory;
     Image image(4, 3);
     image.pixel(2, 1)[1] = std::numeric_limits<float>::quiet_NaN();
-    write_image(folder / "a.exr", image);
-    const auto builder =
-        ParamsBuilder("texture", "imagetexture_color3f").folder(folder.path()).string("filepath", "a.exr");
+    write_image(directory / "a.exr", image);
+    const auto builder = ParamsBuilder("texture", "imagetexture_color3f")
+                             .directory(directory.path())
+                             .string("filepath", "a.exr");
     CHECK_THROWS_WITH((builder.build<ImageTexture, Texture>()),
                       ContainsSubstring("pixel (2, 1) is not finite"));
 }

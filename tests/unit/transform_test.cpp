@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-#include "plumb/transform.h"
+#include "plumb/math/transform.h"
 
 #include "support/catch.h"
 #include "support/random.h"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 
-#include "plumb/shape.h"
+#include "plumb/model/shape.h"
 
 #include "support/catch.h"
 #include "support/params.h"
 #include "support/random.h"
-#include "support/temp_folder.h"
+#include "support/temp_directory.h"
 
 #include <vector>
 
@@ -32,7 +32,7 @@ class Meshes {
 public:
     ParamsBuilder params(const std::string& text)
     {
-        return ParamsBuilder("mesh", "obj").string("filename", folder_.write("mesh.obj", text).string());
+        return ParamsBuilder("mesh", "obj").string("filename", directory_.write("mesh.obj", text).string());
     }
     std::unique_ptr<Shape> read(const std::string& text) { return params(text).build<TriangleMesh, Shape>(); }
     std::unique_ptr<Shape> read(const std::string& text, const Transform& to_world)
@@ -41,7 +41,7 @@ public:
     }
 
 private:
-    TempFolder folder_;
+    TempDirectory directory_;
 };
 
 const std::string one_triangle = "v 0 0 0\nv 2 0 0\nv 0 2 0\nf 1 2 3\n";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "scene_file/values.h"
+#include "scene_file/property_values.h"
 #include "support/catch.h"
 
 using namespace plumb;

@@ -4,7 +4,7 @@
 
 #include "cli/batch/result.h"
 #include "cli/text.h"
-#include "plumb/error.h"
+#include "plumb/base/error.h"
 #include "support/catch.h"
 
 #include <pugixml.hpp>
@@ -69,7 +69,7 @@ BatchRun run_with(const std::string& name)
 {
     BatchRun run;
     run.suite = name + ".xml";
-    run.folder = name;
+    run.directory = name;
     for (const BatchVerdict verdict : {BatchVerdict::error, BatchVerdict::rendered, BatchVerdict::not_run}) {
         BatchResult result;
         result.title = result.scene = result.reference = name;

@@ -20,8 +20,8 @@ import numpy as np
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
-SCENE_FOLDER = ROOT / "tests" / "scenes" / "independent"
-REFERENCE_FOLDER = ROOT / "references" / "independent"
+SCENE_DIRECTORY = ROOT / "tests" / "scenes" / "independent"
+REFERENCE_DIRECTORY = ROOT / "references" / "independent"
 VARIANT = "llvm_ad_rgb"
 CHANNELS = ["R", "G", "B", "variance.R", "variance.G", "variance.B"]
 
@@ -38,10 +38,10 @@ def write_scene(scene):
     import plumb_xml
 
     for mesh in plumb_xml.meshes(scene):
-        (SCENE_FOLDER / (mesh.name + ".obj")).write_text(plumb_xml.mesh_text(mesh))
+        (SCENE_DIRECTORY / (mesh.name + ".obj")).write_text(plumb_xml.mesh_text(mesh))
     for picture in plumb_xml.pictures(scene):
-        write_picture(SCENE_FOLDER / (picture.name + ".exr"), picture.rows, ["R", "G", "B"], {})
-    (SCENE_FOLDER / (scene.name + ".xml")).write_text(plumb_xml.scene_text(scene))
+        write_picture(SCENE_DIRECTORY / (picture.name + ".exr"), picture.rows, ["R", "G", "B"], {})
+    (SCENE_DIRECTORY / (scene.name + ".xml")).write_text(plumb_xml.scene_text(scene))
 
 
 def read_reference(path):
@@ -60,7 +60,7 @@ def judge(scene, replicates, samples):
         return mean, variance, {"judge": f"quadrature, numpy {np.__version__}", "judge:replicates": "0"}
     import mitsuba_scene
 
-    mean, variance = mitsuba_scene.render(scene, SCENE_FOLDER, replicates, samples)
+    mean, variance = mitsuba_scene.render(scene, SCENE_DIRECTORY, replicates, samples)
     return mean, variance, {
         "judge": f"Mitsuba {mi.__version__} {VARIANT}",
         "judge:replicates": str(replicates),
@@ -85,8 +85,8 @@ def main():
     if unknown:
         parser.error("unknown scene " + ", ".join(sorted(unknown)))
     chosen = [scene for scene in SCENES if not options.names or scene.name in options.names]
-    SCENE_FOLDER.mkdir(parents=True, exist_ok=True)
-    REFERENCE_FOLDER.mkdir(parents=True, exist_ok=True)
+    SCENE_DIRECTORY.mkdir(parents=True, exist_ok=True)
+    REFERENCE_DIRECTORY.mkdir(parents=True, exist_ok=True)
     for scene in chosen:
         write_scene(scene)
         if options.scenes_only:
@@ -94,14 +94,14 @@ def main():
         start = time.time()
         mean, variance, attributes = judge(scene, options.replicates, options.samples)
         attributes |= {"judge:scene": scene.name, "judge:script": "tools/judge/make.py"}
-        path = REFERENCE_FOLDER / (scene.name + ".exr")
+        path = REFERENCE_DIRECTORY / (scene.name + ".exr")
         write_picture(path, np.concatenate([mean, variance], axis=2), CHANNELS, attributes)
         error = np.sqrt(variance.mean()) / mean.mean()
         print(f"{scene.name}: mean {mean.mean():.5f}, RMSE {100 * error:.3f} %, {time.time() - start:.1f} s, "
               f"{os.path.getsize(path)} bytes", flush=True)  # fmt: skip
     if not options.scenes_only:
-        text = readme.text(SCENES, REFERENCE_FOLDER, read_reference, mi.__version__, VARIANT, options)
-        (REFERENCE_FOLDER / "README.md").write_text(text)
+        text = readme.text(SCENES, REFERENCE_DIRECTORY, read_reference, mi.__version__, VARIANT, options)
+        (REFERENCE_DIRECTORY / "README.md").write_text(text)
 
 
 if __name__ == "__main__":

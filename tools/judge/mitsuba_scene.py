@@ -143,12 +143,12 @@ def rectangle_transform(shape):
     return Transform(matrix.tolist())
 
 
-def shape(description, folder):
+def shape(description, directory):
     to_world = steps_transform(description.steps)
     if description.kind == "mesh":
         result = {
             "type": "obj",
-            "filename": str(folder / (description.mesh.name + ".obj")),
+            "filename": str(directory / (description.mesh.name + ".obj")),
             "face_normals": description.mesh.normals is None,
             "flip_tex_coords": False,
             "to_world": to_world,
@@ -244,19 +244,19 @@ def camera(scene, sampler):
     return result
 
 
-def build(scene, folder, sampler="independent"):
+def build(scene, directory, sampler="independent"):
     depth = scene.max_depth if scene.max_depth < 0 else scene.max_depth + 1  # Mitsuba counts the camera's ray
     result = {"type": "scene", "integrator": {"type": "path", "max_depth": depth}, "camera": camera(scene, sampler)}
     for i, one in enumerate(scene.shapes):
-        result[f"shape{i}"] = shape(one, folder)
+        result[f"shape{i}"] = shape(one, directory)
     for i, one in enumerate(scene.lights):
         result[f"light{i}"] = light(one)
     return mi.load_dict(result)
 
 
-def render(scene, folder, replicates, samples):
+def render(scene, directory, replicates, samples):
     """The mean of `replicates` renders with seeds of their own, and the variance of that mean, of each value."""
-    built = build(scene, folder)
+    built = build(scene, directory)
     renders = [
         np.array(mi.render(built, spp=samples, seed=1000 + i), dtype=np.float64)[:, :, :3]
         for i in range(replicates)

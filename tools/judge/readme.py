@@ -54,11 +54,11 @@ None of these is a bug of Plumb; the translation or the choice of judge takes th
 """
 
 
-def text(scenes, folder, read, version, variant, options):
+def text(scenes, directory, read, version, variant, options):
     """read(path) gives mean and variance, each (height, width, 3)."""
     rows = []
     for scene in scenes:
-        path = folder / (scene.name + ".exr")
+        path = directory / (scene.name + ".exr")
         if not path.exists():
             continue
         mean, variance = read(path)

@@ -34,7 +34,7 @@ def processor():
 
 def main():
     parser = argparse.ArgumentParser(prog="tools/bench", description="races Plumb against its peers; see tools/bench --help")
-    parser.add_argument("--out", metavar="FOLDER", default="bench")
+    parser.add_argument("--out", metavar="DIRECTORY", default="bench")
     parser.add_argument("--scenes", metavar="NAME,...", default=",".join(bench_scenes.MAKERS))
     parser.add_argument("--peers", metavar="NAME,...", default=",".join(environment.PEERS))
     parser.add_argument("--threads", type=int, default=os.cpu_count())

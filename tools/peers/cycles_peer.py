@@ -43,8 +43,8 @@ UNBIASED = {
 class Materials:
     """One for each pair of BSDF and radiance."""
 
-    def __init__(self, folder):
-        self.folder = folder
+    def __init__(self, directory):
+        self.directory = directory
         self.made = {}
 
     def find(self, shape):
@@ -84,7 +84,7 @@ class Materials:
             albedo = p["albedo"]
             if isinstance(albedo, Picture):
                 texture = nodes.new("ShaderNodeTexImage")
-                texture.image = load_image(self.folder, albedo)
+                texture.image = load_image(self.directory, albedo)
                 links.new(texture.outputs["Color"], node.inputs["Color"])
             else:
                 node.inputs["Color"].default_value = (*albedo, 1.0)
@@ -102,14 +102,14 @@ class Materials:
         return node
 
 
-def load_image(folder, picture):
-    image = bpy.data.images.load(str(folder / (picture.name + ".exr")), check_existing=True)
+def load_image(directory, picture):
+    image = bpy.data.images.load(str(directory / (picture.name + ".exr")), check_existing=True)
     image.colorspace_settings.name = "Non-Color"
     return image
 
 
-def load_mesh(folder, mesh):
-    bpy.ops.wm.obj_import(filepath=str(folder / (mesh.name + ".obj")), forward_axis="Y", up_axis="Z", validate_meshes=False)
+def load_mesh(directory, mesh):
+    bpy.ops.wm.obj_import(filepath=str(directory / (mesh.name + ".obj")), forward_axis="Y", up_axis="Z", validate_meshes=False)
     loaded = bpy.context.selected_objects[0]
     data = loaded.data
     bpy.data.objects.remove(loaded)
@@ -129,14 +129,14 @@ def make_rectangle(shape):
 
 
 class Peer:
-    def __init__(self, scene, folder, settings):
+    def __init__(self, scene, directory, settings):
         bpy.ops.wm.read_factory_settings(use_empty=True)
         self.version = "Cycles of Blender " + bpy.app.version_string
-        self.file = folder / "cycles.exr"
+        self.file = directory / "cycles.exr"
         self.bpy_scene = bpy.context.scene
         self.set_up(scene, settings["threads"])
-        self.add_shapes(scene, folder)
-        self.add_world(scene, folder)
+        self.add_shapes(scene, directory)
+        self.add_world(scene, directory)
         self.add_camera(scene.camera)
 
     def set_up(self, scene, threads):
@@ -154,12 +154,12 @@ class Peer:
         image = render.image_settings
         image.file_format, image.color_mode, image.color_depth = "OPEN_EXR", "RGB", "32"
 
-    def add_shapes(self, scene, folder):
-        materials, meshes = Materials(folder), {}
+    def add_shapes(self, scene, directory):
+        materials, meshes = Materials(directory), {}
         for shape in scene.shapes:
             if shape.kind == "mesh":
                 if shape.mesh.name not in meshes:
-                    meshes[shape.mesh.name] = load_mesh(folder, shape.mesh)
+                    meshes[shape.mesh.name] = load_mesh(directory, shape.mesh)
                 data = meshes[shape.mesh.name]
             else:
                 assert shape.kind == "rectangle", "Cycles has no spheres"
@@ -170,7 +170,7 @@ class Peer:
             placed.material_slots[0].link = "OBJECT"
             placed.material_slots[0].material = materials.find(shape)
 
-    def add_world(self, scene, folder):
+    def add_world(self, scene, directory):
         world = bpy.data.worlds.new("world")
         self.bpy_scene.world = world
         world.use_nodes = True
@@ -183,7 +183,7 @@ class Peer:
             turn = nodes.new("ShaderNodeMapping")
             turn.inputs["Rotation"].default_value = (0.0, 0.0, math.pi)
             texture = nodes.new("ShaderNodeTexEnvironment")
-            texture.image = load_image(folder, light.picture)
+            texture.image = load_image(directory, light.picture)
             links.new(nodes.new("ShaderNodeTexCoord").outputs["Generated"], turn.inputs["Vector"])
             links.new(turn.outputs["Vector"], texture.inputs["Vector"])
             links.new(texture.outputs["Color"], background.inputs["Color"])

@@ -15,20 +15,20 @@ PEERS = {"mitsuba": "mitsuba==3.9.1", "cycles": "bpy==4.5.15", "luxcore": "pylux
 MODULES = {"mitsuba": "mitsuba", "cycles": "bpy", "luxcore": "pyluxcore"}
 
 
-def default_folder():
+def default_directory():
     cache = os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
     return Path(cache) / "plumb" / "bench-venv"
 
 
-def python_of(folder):
-    return Path(folder) / "bin" / "python"
+def python_of(directory):
+    return Path(directory) / "bin" / "python"
 
 
-def install(folder):
+def install(directory):
     """Makes the environment. A peer that cannot be had for this Python and machine is said to be so, no more."""
-    if not python_of(folder).exists():
-        venv.create(folder, with_pip=True)
-    pip = [str(python_of(folder)), "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
+    if not python_of(directory).exists():
+        venv.create(directory, with_pip=True)
+    pip = [str(python_of(directory)), "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
     subprocess.run([*pip, *COMMON, PEERS["mitsuba"]], check=True)
     for name, package in PEERS.items():
         if subprocess.run([*pip, package, *COMMON], check=False).returncode != 0:
@@ -37,10 +37,10 @@ def install(folder):
         print("bench: no libLLVM; in Debian: apt-get install libllvm19. Mitsuba's llvm_ad_rgb is left out", file=sys.stderr)
 
 
-def installed(folder):
+def installed(directory):
     """The peers whose Python module is there."""
     test = "import importlib.util, sys; print(*(m for m in sys.argv[1:] if importlib.util.find_spec(m)))"
-    words = subprocess.run([str(python_of(folder)), "-c", test, *MODULES.values()],
+    words = subprocess.run([str(python_of(directory)), "-c", test, *MODULES.values()],
                            capture_output=True, text=True, check=True).stdout.split()  # fmt: skip
     return [name for name, module in MODULES.items() if module in words]
 

@@ -33,7 +33,7 @@ from description import Camera, Scene, Shape  # noqa: E402
 from objects import GREY, diffuse  # noqa: E402
 
 
-def box_with_mesh(folder, triangles):
+def box_with_mesh(directory, triangles):
     """A grey Cornell box with one mesh of about so many triangles in it; the scene file and their number."""
     def panel(center, normal, size=2.0, **more):
         return Shape("rectangle", more.pop("bsdf", GREY), center=center, normal=normal, width=size, height=size, **more)
@@ -50,10 +50,10 @@ def box_with_mesh(folder, triangles):
     ]
     camera = Camera(origin=(0.0, 1.0, 4.2), target=(0.0, 1.0, 0.0), fov=40.0, width=400, height=300)
     scene = Scene("box", shapes, camera=camera, max_depth=-1)
-    folder.mkdir()
-    (folder / "mesh.obj").write_text(plumb_xml.mesh_text(mesh))
-    (folder / "box.xml").write_text(plumb_xml.scene_text(scene))
-    return folder / "box.xml", len(mesh.faces)
+    directory.mkdir()
+    (directory / "mesh.obj").write_text(plumb_xml.mesh_text(mesh))
+    (directory / "box.xml").write_text(plumb_xml.scene_text(scene))
+    return directory / "box.xml", len(mesh.faces)
 
 
 def run_json(command):
@@ -64,15 +64,15 @@ def run_json(command):
 
 
 def renderer(scene, *options, before=()):
-    with tempfile.TemporaryDirectory() as folder:
-        return run_json([*before, BUILD / "renderer", scene, "-o", Path(folder) / "out.exr", "--json", "-", "--quiet", *options])
+    with tempfile.TemporaryDirectory() as directory:
+        return run_json([*before, BUILD / "renderer", scene, "-o", Path(directory) / "out.exr", "--json", "-", "--quiet", *options])
 
 
-def share_inside_embree(scene, spp, folder):
+def share_inside_embree(scene, spp, directory):
     """Of the CPU time, sampled while rendering; None without `perf`."""
     if not shutil.which("perf"):
         return None
-    data = folder / "perf.data"
+    data = directory / "perf.data"
     renderer(scene, "--spp", spp, before=["perf", "record", "--quiet", "--event", "cpu-clock", "--output", data])
     report = subprocess.run(["perf", "report", "--stdio", "--input", str(data), "--sort", "dso", "--percent-limit", "0"],
                             capture_output=True, text=True, check=False)  # fmt: skip
@@ -97,9 +97,9 @@ def main(words):
 
     raw = {"machine": platform.machine(), "runs": runs, "spp": spp}
     with tempfile.TemporaryDirectory() as temporary:
-        folder = Path(temporary)
-        small, small_count = box_with_mesh(folder / "small", 8_000)
-        large, large_count = box_with_mesh(folder / "large", 40_000 if arguments.quick else 4_000_000)
+        directory = Path(temporary)
+        small, small_count = box_with_mesh(directory / "small", 8_000)
+        large, large_count = box_with_mesh(directory / "large", 40_000 if arguments.quick else 4_000_000)
         for name, scene, count in (("loop_8k", small, small_count), ("loop_4m", large, large_count)):
             rows = []
             for _ in range(runs):
@@ -112,7 +112,7 @@ def main(words):
             median_line("  plumb", [row["plumb"] / 1e6 for row in rows], "Mrays/s")
             median_line("  plumb / bare loop", [row["plumb"] / row["bare"] for row in rows], "", "  target: at least 0.85, 0.9 at 4 M")
 
-        share = share_inside_embree(small, 2 * spp, folder)
+        share = share_inside_embree(small, 2 * spp, directory)
         raw["inside_embree"] = share
         print(f"{'share of CPU time inside Embree (8 k)':<44} " + ("no perf here" if share is None else f"{share:8.3f}"))
 
@@ -122,7 +122,7 @@ def main(words):
         raw["threads"] = rows
         median_line("two threads / one thread", [row["2"] / row["1"] for row in rows], "", "  target: at least 1.95")
 
-        million, count = box_with_mesh(folder / "million", 10_000 if arguments.quick else 1_000_000)
+        million, count = box_with_mesh(directory / "million", 10_000 if arguments.quick else 1_000_000)
         rows = [renderer(million, "--spp", 1)["seconds"] for _ in range(runs)]
         raw["loading"] = rows
         median_line(f"parse and build {count} triangles", [row["parsing"] + row["building"] for row in rows], "s")

@@ -38,12 +38,12 @@ def properties(values):
     return result
 
 
-def image(name, folder, picture):
+def image(name, directory, picture):
     """A picture's file, as it is: no gamma."""
-    return {f"{name}.file": str(folder / (picture.name + ".exr")), f"{name}.gamma": 1.0}
+    return {f"{name}.file": str(directory / (picture.name + ".exr")), f"{name}.gamma": 1.0}
 
 
-def material(name, shape, folder):
+def material(name, shape, directory):
     p = shape.bsdf.parameters
     if shape.radiance is not None:
         return {
@@ -55,7 +55,7 @@ def material(name, shape, folder):
         found = {f"scene.materials.{name}.type": "matte", f"scene.materials.{name}.kd": p["albedo"]}
         if isinstance(p["albedo"], Picture):
             texture = f"scene.textures.{name}"
-            found |= {f"{texture}.type": "imagemap", **image(texture, folder, p["albedo"])}
+            found |= {f"{texture}.type": "imagemap", **image(texture, directory, p["albedo"])}
             # Row 0 is the top one.
             found |= {f"{texture}.mapping.type": "uvmapping2d", f"{texture}.mapping.uvscale": (1.0, -1.0)}
             found |= {f"{texture}.mapping.uvdelta": (0.0, 1.0)}
@@ -75,7 +75,7 @@ def material(name, shape, folder):
 
 
 class Peer:
-    def __init__(self, scene, folder, settings):
+    def __init__(self, scene, directory, settings):
         pyluxcore.Init(lambda message: None)
         self.version = "LuxCore " + pyluxcore.Version()
         self.size = (scene.camera.height, scene.camera.width)
@@ -84,11 +84,11 @@ class Peer:
         self.add_camera(scene.camera)
         meshes = set()
         for i, shape in enumerate(scene.shapes):
-            self.add_shape(f"shape{i}", shape, folder, meshes)
+            self.add_shape(f"shape{i}", shape, directory, meshes)
         for light in scene.lights:
             assert light.kind == "environment" and light.color == (1.0, 1.0, 1.0)
             # The picture's z is up, and it is seen from the other side: y and z change places.
-            values = {"scene.lights.sky.type": "infinite", **image("scene.lights.sky", folder, light.picture)}
+            values = {"scene.lights.sky.type": "infinite", **image("scene.lights.sky", directory, light.picture)}
             values["scene.lights.sky.transformation"] = np.eye(4)[[0, 2, 1, 3]].ravel().tolist()
             self.scene.Parse(properties(values))
 
@@ -109,13 +109,13 @@ class Peer:
         }
         self.scene.Parse(properties(values))
 
-    def add_shape(self, name, shape, folder, meshes):
-        values = material(name, shape, folder)
+    def add_shape(self, name, shape, directory, meshes):
+        values = material(name, shape, directory)
         values[f"scene.objects.{name}.material"] = name
         if shape.kind == "mesh":
             if shape.mesh.name not in meshes:
                 meshes.add(shape.mesh.name)
-                ply = str(folder / (shape.mesh.name + ".ply"))
+                ply = str(directory / (shape.mesh.name + ".ply"))
                 loaded = {f"scene.shapes.{shape.mesh.name}.type": "mesh", f"scene.shapes.{shape.mesh.name}.ply": ply}
                 self.scene.Parse(properties(loaded))
             values[f"scene.objects.{name}.shape"] = shape.mesh.name

@@ -19,16 +19,16 @@ def say(text):
     print(text, file=sys.stderr, flush=True)
 
 
-def write_scene(scene, folder):
+def write_scene(scene, directory):
     for mesh in {mesh.name: mesh for mesh in plumb_xml.meshes(scene)}.values():
         if mesh.positions is None:
             made = meshes.waves(mesh.name, int(mesh.name.split("-")[1]))
             mesh.positions, mesh.faces = made.positions, made.faces
-        (folder / (mesh.name + ".obj")).write_text(plumb_xml.mesh_text(mesh))
-        geometry.write_ply(folder / (mesh.name + ".ply"), mesh)
+        (directory / (mesh.name + ".obj")).write_text(plumb_xml.mesh_text(mesh))
+        geometry.write_ply(directory / (mesh.name + ".ply"), mesh)
     for picture in plumb_xml.pictures(scene):
-        pictures.write(folder / (picture.name + ".exr"), np.array(picture.rows))
-    (folder / (scene.name + ".xml")).write_text(plumb_xml.scene_text(scene))
+        pictures.write(directory / (picture.name + ".exr"), np.array(picture.rows))
+    (directory / (scene.name + ".xml")).write_text(plumb_xml.scene_text(scene))
 
 
 def samples_for(racer, seconds):
@@ -60,12 +60,12 @@ def race(racers, results, reference, options):
                 results[name]["runs"].append(entry)
 
 
-def measure(name, configurations, folder, options):
-    folder.mkdir()
+def measure(name, configurations, directory, options):
+    directory.mkdir()
     bench = bench_scenes.make(name, options.width, options.height, options.quick)
     scene = bench.scene
     say(f"{name}: writing")
-    write_scene(scene, folder)
+    write_scene(scene, directory)
 
     racers, results, converged = {}, {}, {}
     for configuration in configurations:
@@ -74,11 +74,11 @@ def measure(name, configurations, folder, options):
             result["left_out"] = bench.left_out[configuration.renderer]
             continue
         try:
-            racer = renderers.start(configuration, scene, folder, options)
+            racer = renderers.start(configuration, scene, directory, options)
             result |= {"version": racer.version, "loads": racer.loads, "base_spp": samples_for(racer, options.shortest)}
             racers[configuration.name] = racer
             converged[configuration.name] = converge(racer, options.longer * result["base_spp"], options.replicates)
-            pictures.write(folder / (configuration.name + ".exr"), *converged[configuration.name], options.replicates)
+            pictures.write(directory / (configuration.name + ".exr"), *converged[configuration.name], options.replicates)
         except renderers.Failed as failure:
             result["left_out"] = str(failure)
             racers.pop(configuration.name, None)
@@ -90,7 +90,7 @@ def measure(name, configurations, folder, options):
         if other == first:
             results[other]["agrees"] = {"outcome": "passes", "with": None}
             continue
-        found = pictures.compare(renderers.PLUMB, folder / (other + ".exr"), folder / (first + ".exr"), options.significance,
+        found = pictures.compare(renderers.PLUMB, directory / (other + ".exr"), directory / (first + ".exr"), options.significance,
                                  options.undecided_percent)  # fmt: skip
         results[other]["agrees"] = found | {"with": first}
         say(f"{name}: {other} and {first}: {found['outcome']}, p {found['p']:.3g}, "
@@ -98,7 +98,7 @@ def measure(name, configurations, folder, options):
 
     agreeing = [converged[other] for other in converged if results[other]["agrees"]["outcome"] == "passes"]
     reference = estimates.combine(agreeing)
-    pictures.write(folder / "reference.exr", reference[0])
+    pictures.write(directory / "reference.exr", reference[0])
     race(racers, results, reference, options)
     for racer_name, racer in racers.items():
         results[racer_name]["peak_memory"] = racer.peak_memory

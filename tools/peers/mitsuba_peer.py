@@ -13,14 +13,14 @@ LARGEST_WAVEFRONT = 1 << 24
 
 
 class Peer:
-    def __init__(self, scene, folder, settings):
+    def __init__(self, scene, directory, settings):
         mi.set_variant(settings["variant"])
         import drjit
         import mitsuba_scene
 
         drjit.set_thread_count(settings["threads"])
         self.version = "Mitsuba " + mi.__version__
-        self.scene = mitsuba_scene.build(scene, folder, settings["sampler"])
+        self.scene = mitsuba_scene.build(scene, directory, settings["sampler"])
         pixels = scene.camera.width * scene.camera.height
         self.most = 1 << ((LARGEST_WAVEFRONT // pixels).bit_length() - 1)
         self.compiled = set()  # numbers of samples

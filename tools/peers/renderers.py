@@ -71,9 +71,9 @@ def configurations(peers):
 class Plumb:
     """A process for each picture."""
 
-    def __init__(self, configuration, scene, folder, options):
-        self.scene = folder / (scene.name + ".xml")
-        self.file = folder / "plumb.exr"
+    def __init__(self, configuration, scene, directory, options):
+        self.scene = directory / (scene.name + ".xml")
+        self.file = directory / "plumb.exr"
         self.words = ["--integrator", configuration.settings["integrator"], "--sampler", configuration.settings["sampler"],
                       "--threads", str(options.threads)]  # fmt: skip
         self.peak_memory = 0
@@ -104,10 +104,10 @@ class Plumb:
 class Worker:
     """A process that stays (worker.py), so that only the first picture waits for loading."""
 
-    def __init__(self, configuration, scene, folder, options):
-        self.folder = folder
-        self.log = folder / (configuration.name.replace(" ", "-").replace(",", "") + ".log")
-        settings = {"scene": scene.name, "folder": str(folder), "width": scene.camera.width, "height": scene.camera.height,
+    def __init__(self, configuration, scene, directory, options):
+        self.directory = directory
+        self.log = directory / (configuration.name.replace(" ", "-").replace(",", "") + ".log")
+        settings = {"scene": scene.name, "directory": str(directory), "width": scene.camera.width, "height": scene.camera.height,
                     "quick": options.quick, "threads": options.threads, **configuration.settings}  # fmt: skip
         self.command = [sys.executable, str(HERE / "worker.py"), configuration.renderer, json.dumps(settings)]
         self.loads = []
@@ -137,7 +137,7 @@ class Worker:
         return json.loads(line)
 
     def render(self, spp, seed):
-        file = self.folder / "peer.npy"
+        file = self.directory / "peer.npy"
         self.process.stdin.write(json.dumps({"spp": spp, "seed": seed, "file": str(file)}) + "\n")
         found = self.answer()
         self.peak_memory = max(self.peak_memory, found["peak_memory"])
@@ -148,5 +148,5 @@ class Worker:
         self.process.wait()
 
 
-def start(configuration, scene, folder, options):
-    return (Plumb if configuration.is_plumb else Worker)(configuration, scene, folder, options)
+def start(configuration, scene, directory, options):
+    return (Plumb if configuration.is_plumb else Worker)(configuration, scene, directory, options)

@@ -3,7 +3,7 @@
 
     worker.py RENDERER SETTINGS
 
-SETTINGS is JSON: scene, folder (its files), width, height, quick, threads, and the renderer's own. Requests are lines
+SETTINGS is JSON: scene, directory (its files), width, height, quick, threads, and the renderer's own. Requests are lines
 of JSON, {"spp": N, "seed": N, "file": X.npy}; answers too: {"seconds": X, "peak_memory": N}. The first answer, with the
 renderer's version, comes when a first picture of one sample per pixel is rendered.
 """
@@ -45,7 +45,7 @@ def main():
     import bench_scenes
 
     scene = bench_scenes.make(settings["scene"], settings["width"], settings["height"], settings["quick"]).scene
-    peer = importlib.import_module(renderer + "_peer").Peer(scene, Path(settings["folder"]), settings)
+    peer = importlib.import_module(renderer + "_peer").Peer(scene, Path(settings["directory"]), settings)
     peer.render(1, 1)
     print(json.dumps({"version": peer.version}), file=channel)
 

@@ -6,8 +6,8 @@
 #include "cli/batch/picture_data.h"
 #include "cli/batch/report_page.h"
 
-#include "core/visible_text.h"
-#include "plumb/error.h"
+#include "base/visible_text.h"
+#include "plumb/base/error.h"
 
 #include <fstream>
 #include <iterator>

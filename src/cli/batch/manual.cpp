@@ -30,7 +30,7 @@ constexpr std::string_view about_suites =
 
 constexpr std::string_view about_results =
 "\n"
-"The folder also gets report.html, report.json, junit.xml and summary.md. What is up to date (the\n"
+"The directory also gets report.html, report.json, junit.xml and summary.md. What is up to date (the\n"
 "hashes of scene, options, program and picture are what they were) is compared, but not rendered.\n"
 "Exit code: 1 if a picture could not be rendered or compared, else 3 if one differs, else 4 if one\n"
 "is undecided, else 0; 2 is wrong usage.\n";

@@ -3,7 +3,7 @@
 
 // Pictures as text inside a web page.
 
-#include "plumb/image.h"
+#include "plumb/image/image.h"
 
 #include <string>
 #include <string_view>

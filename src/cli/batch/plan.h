@@ -5,7 +5,7 @@
 
 #include "cli/options.h"
 
-#include "plumb/suite.h"
+#include "plumb/suite_file/suite.h"
 
 namespace plumb {
 

@@ -5,7 +5,7 @@
 
 #include "cli/batch/plan.h"
 
-#include "plumb/compare.h"
+#include "plumb/compare/compare.h"
 
 namespace plumb {
 
@@ -43,7 +43,7 @@ struct BatchResult {
 
 struct BatchRun {
     std::string suite;
-    std::string folder;
+    std::string directory;
     std::vector<BatchResult> results;
     double seconds = 0.0;
     int signal = 0; // that ended it; 0: none

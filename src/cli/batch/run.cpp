@@ -5,7 +5,7 @@
 #include "cli/console.h"
 #include "cli/outputs.h"
 
-#include "core/visible_text.h"
+#include "base/visible_text.h"
 
 #include <charconv>
 #include <chrono>
@@ -159,12 +159,12 @@ std::string counted_title(const SuiteEntry& entry, const LoadedScene& scene, std
 
 } // namespace
 
-void make_folder(const fs::path& folder)
+void make_directory(const fs::path& directory)
 {
     std::error_code problem;
-    if (!folder.empty()) fs::create_directories(folder, problem);
+    if (!directory.empty()) fs::create_directories(directory, problem);
     if (problem)
-        throw Error(fmt::format("cannot make the folder '{}': {}", folder.string(), problem.message()));
+        throw Error(fmt::format("cannot make the directory '{}': {}", directory.string(), problem.message()));
 }
 
 BatchResult run_entry(const BatchJob& job, BatchContext& context)
@@ -176,16 +176,17 @@ BatchResult run_entry(const BatchJob& job, BatchContext& context)
             const LoadedScene scene = load_scene_of(job.entry, options);
             result.warnings = warnings_of(scene);
             result.title = counted_title(job.entry, scene, context.titles);
-            const std::string stem = (context.folder / result.title).string();
+            const std::string stem = (context.directory / result.title).string();
             options.outputs = {stem + ".exr", stem + ".png"};
             const std::string key = picture_key(options, scene);
             result.up_to_date = !context.options.batch.force &&
                                 context.state.is_up_to_date(result.title, key, options.outputs);
             if (!result.up_to_date) {
-                make_folder(fs::path(stem).parent_path());
+                make_directory(fs::path(stem).parent_path());
                 std::vector<std::string> written = options.outputs;
                 if (!job.entry.reference.empty()) written.push_back(difference_of(options.outputs.front()));
-                keep_inputs(context.kept, written, {}, "it is a scene or a reference of the suite");
+                refuse_overwriting_inputs(context.kept, written, {},
+                                          "it is a scene or a reference of the suite");
                 check_outputs(written, {});
                 check_whole(render_and_write(options, scene), result);
                 context.state.note(result.title, key, options.outputs);
@@ -212,8 +213,8 @@ BatchResult make_reference(const BatchJob& job, const Options& run, const KeptFi
             options.outputs.push_back(fs::path(job.entry.reference).replace_extension(".png").string());
         const LoadedScene scene = load_scene_of(job.entry, options);
         result.warnings = warnings_of(scene);
-        make_folder(job.entry.reference.parent_path());
-        keep_inputs(kept, options.outputs, {}, "it is a scene of the suite");
+        make_directory(job.entry.reference.parent_path());
+        refuse_overwriting_inputs(kept, options.outputs, {}, "it is a scene of the suite");
         check_outputs(options.outputs, {});
         const Rendered rendered = render_and_write(options, scene);
         check_whole(rendered, result);

@@ -13,14 +13,14 @@ namespace plumb {
 
 struct BatchContext {
     const Options& options; // of `renderer batch`
-    std::filesystem::path folder;
+    std::filesystem::path directory;
     BatchState state;
     std::set<std::string> titles; // that are taken
     KeptFiles kept;               // that no picture may replace
 };
 
 // Throws Error.
-void make_folder(const std::filesystem::path& folder);
+void make_directory(const std::filesystem::path& directory);
 
 // Renders the entry's picture unless it is up to date, and compares it. Never throws: what goes wrong is in the result.
 BatchResult run_entry(const BatchJob& job, BatchContext& context);

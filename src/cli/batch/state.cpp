@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "cli/batch/state.h"
 
+#include "base/regular_file.h"
 #include "cli/program.h"
 #include "cli/text_file.h"
-#include "io/regular_file.h"
 
-#include "plumb/hash.h"
+#include "plumb/base/hash.h"
 
 #include <fmt/format.h>
 #include <fstream>
@@ -30,7 +30,7 @@ std::string picture_key(const Options& options, const LoadedScene& scene)
     return hash.hex();
 }
 
-BatchState::BatchState(const std::filesystem::path& folder) : file_(folder / "state.txt")
+BatchState::BatchState(const std::filesystem::path& directory) : file_(directory / "state.txt")
 {
     if (!problem_of_file(file_).empty()) return;
     std::ifstream stream(file_);

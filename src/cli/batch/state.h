@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Which pictures of an output folder need not be rendered again: a text file in it, with a line for each picture.
+// Which pictures of an output directory need not be rendered again: a text file in it, with a line for each picture.
 
 #include "cli/options.h"
 
@@ -16,7 +16,7 @@ std::string picture_key(const Options& options, const LoadedScene& scene);
 class BatchState {
 public:
     // Nothing is known where there is no state or it cannot be read.
-    explicit BatchState(const std::filesystem::path& folder);
+    explicit BatchState(const std::filesystem::path& directory);
 
     // Whether the files were made under this key and have not been touched since.
     bool is_up_to_date(const std::string& title, const std::string& key,

@@ -2,7 +2,7 @@
 
 // Pictures that are compared: what a codec made of two files.
 
-#include "plumb/compare.h"
+#include "plumb/compare/compare.h"
 #include "fuzz/fuzz.h"
 #include "fuzz/picture_text.h"
 

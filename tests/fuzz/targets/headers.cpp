@@ -15,7 +15,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
     static_cast<void>(scene);
     const std::string picture = write_file("picture.exr", text_of(data, size)).string();
     allow_our_errors([&] { info_command(parse_options({"info", picture})); });
-    const std::string again = (folder() / "again.exr").string();
+    const std::string again = (directory() / "again.exr").string();
     allow_our_errors([&] {
         rerun_command(parse_options({"rerun", picture, "-o", again, "--threads", "1"}));
     });

@@ -18,10 +18,10 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
         words.push_back(write_file("part" + std::to_string(words.size()) + ".exr", part).string());
     }
     for (const char* output : {"merged.exr", "merged.png"})
-        words.insert(words.end(), {"-o", (folder() / output).string()});
-    words.insert(words.end(), {"--checkpoint", (folder() / "sum.exr").string(), "--allow-missing"});
+        words.insert(words.end(), {"-o", (directory() / output).string()});
+    words.insert(words.end(), {"--checkpoint", (directory() / "sum.exr").string(), "--allow-missing"});
     allow_our_errors([&] { merge_command(parse_options(words)); });
     for (const char* output : {"merged.exr", "merged.png", "sum.exr", "sum.previous.exr"})
-        std::filesystem::remove(folder() / output);
+        std::filesystem::remove(directory() / output);
     return 0;
 }

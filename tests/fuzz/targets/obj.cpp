@@ -2,9 +2,9 @@
 
 // OBJ meshes.
 
-#include "core/visible_text.h"
+#include "base/visible_text.h"
 #include "fuzz/fuzz.h"
-#include "plumb/mesh.h"
+#include "plumb/shapes/mesh.h"
 
 #include <cmath>
 

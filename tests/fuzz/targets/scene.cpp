@@ -2,9 +2,9 @@
 
 // Scene files: XML, includes, values, plugins, meshes, Embree; and one sample of what was loaded.
 
-#include "core/visible_text.h"
+#include "base/visible_text.h"
 #include "fuzz/fuzz.h"
-#include "plumb/scene_file.h"
+#include "plumb/scene_file/scene_file.h"
 
 using namespace plumb;
 using namespace plumb::fuzz;

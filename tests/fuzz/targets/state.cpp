@@ -4,7 +4,7 @@
 
 #include "fuzz/fuzz.h"
 #include "fuzz/state_mutator.h"
-#include "plumb/state_file.h"
+#include "plumb/render/state_file.h"
 
 using namespace plumb;
 using namespace plumb::fuzz;

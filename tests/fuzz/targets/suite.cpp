@@ -2,9 +2,9 @@
 
 // Suites and test files.
 
-#include "plumb/suite.h"
+#include "plumb/suite_file/suite.h"
 #include "fuzz/fuzz.h"
-#include "plumb/test_file.h"
+#include "plumb/test_file/test_file.h"
 
 using namespace plumb;
 using namespace plumb::fuzz;

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Are two pictures the same but for their noise?
+//
+// [1] Welch 1947, "The generalization of Student's problem when several different population variances are involved",
+//     https://doi.org/10.1093/biomet/34.1-2.28
+// [2] Satterthwaite 1946, "An approximate distribution of estimates of variance components",
+//     https://doi.org/10.2307/3002019
+// [3] Kish 1965, Survey Sampling: the effective size of a sample of unequal weights, (sum x)^2 / sum x^2.
+//
+// Conventions. A is the picture under test and B the reference; only relative errors and HDR-FLIP care. A picture has
+// channels R, G and B, or Y. What a picture knows of its noise are channels "variance.R", "variance.G", "variance.B"
+// (or "variance.Y"): the estimated variance of each pixel's mean, not a number where nobody knows. "contributing"
+// counts the samples of a pixel that were not black, and the header's plumb:samplesPerPixel all of them. Where
+// plumb:inputHash and plumb:integrator are equal, both are pictures of one estimator.
+
+#include "plumb/image/image.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+namespace plumb {
+
+enum class Side { a, b };
+enum class FlipMode { none, ldr, hdr };
+
+// The picture fails if the metric is above the limit. Metrics: mse, rmse, relmse, mae, max, flip; psnr is a lower
+// limit.
+struct Threshold {
+    std::string metric;
+    double limit = 0.0;
+};
+
+struct CompareOptions {
+    double significance = 0.01; // the chance to say "differs" of two pictures with the same expectation
+    bool verdict = true;        // look at the noise at all
+    std::optional<Side> exact;  // this picture has no noise
+    double fail_percent = 0.0;  // of the pixels may differ, or stay undecided
+    double rounding = 1e-5;     // relative difference of means that floats may make
+    FlipMode flip = FlipMode::hdr;
+    std::vector<Threshold> thresholds;
+};
+
+// Differences of the pixels that are finite in both pictures, over pixels and channels, d = a - b.
+struct Metrics {
+    double mse = 0.0;          // mean of d^2
+    double rmse = 0.0;         // its square root
+    double relative_mse = 0.0; // mean of d^2 / (b^2 + 0.01)
+    double mae = 0.0;          // mean of |d|
+    double psnr = 0.0;         // 10 log10(1 / mse) dB: the peak is 1; infinite if nothing differs
+    double max = 0.0;          // largest |d|
+    Vec2i max_pixel;
+    int max_channel = 0;
+    double mean_a = 0.0; // mean luminance
+    double mean_b = 0.0;
+    std::optional<double> flip; // mean of the map
+};
+
+// Pixels with a channel that is not finite. They count in nothing else.
+struct NonFinite {
+    std::uint64_t only_a = 0; // they differ
+    std::uint64_t only_b = 0; // they differ
+    std::uint64_t both = 0;   // they do not
+    std::optional<Vec2i> first;
+};
+
+// The squared error without what the noise of both pictures adds: mean of d^2 - var(a) - var(b).
+struct NoiseCorrected {
+    double squared_error = 0.0; // may be negative
+    double low = 0.0;           // 95 % confidence interval
+    double high = 0.0;
+    std::optional<double> root; // where positive
+    std::uint64_t pixels = 0;   // whose variance both pictures know
+};
+
+// A square of pixels, or the whole picture, in one channel.
+struct UnitTest {
+    PixelRect place;
+    int channel = 0;
+    double mean_a = 0.0;
+    double mean_b = 0.0;
+    double t = 0.0;       // the difference in standard errors
+    double freedom = 0.0; // degrees of it
+    double p =
+        1.0; // chance of a larger |t|, times the number of tests: may be compared with the significance
+};
+
+// The tests of all squares of one size.
+struct ScaleTest {
+    int size = 0; // of a side in pixels; 0: the whole picture
+    std::uint64_t units = 0;
+    std::uint64_t tested = 0;          // where the data support it
+    std::uint64_t rejected = 0;        // without the pixels that smaller squares rejected
+    std::uint64_t smallest_pixels = 0; // pixels whose smallest tested square is of this size
+    std::optional<UnitTest> largest;   // the one with the smallest p
+};
+
+enum class Finding { not_asked, same, different, undecided };
+enum class CompareOutcome { passes, differs, undecided };
+
+struct Significance {
+    Finding finding = Finding::not_asked;
+    std::string reason;            // of not_asked and undecided
+    std::vector<ScaleTest> scales; // pixels first, the whole picture last
+    double p = 1.0;                // smallest of all
+    std::uint64_t pixels = 0;      // in the picture
+    std::uint64_t differing = 0;   // in squares that were rejected, or not finite in one picture
+    std::uint64_t untested = 0;    // in no square that was tested
+    // Had A been too bright or too dark all over by this factor, the test of the whole picture would have found it with
+    // 90 % probability. Nothing: the whole picture could not be tested.
+    std::optional<double> detectable_bias;
+};
+
+struct Comparison {
+    int width = 0;
+    int height = 0;
+    std::vector<std::string> channels; // R, G and B, or Y
+    bool identical = false;            // every pixel and channel of colour has the same value
+    bool same_random_numbers = false;  // by the headers: the same inputs, integrator and seed
+    Metrics metrics;
+    FlipMode flip_mode = FlipMode::none;
+    std::vector<float> flip_map; // empty without FLIP
+    NonFinite non_finite;
+    std::optional<NoiseCorrected> corrected;
+    Significance significance;
+    std::vector<Threshold> exceeded;
+    CompareOutcome outcome = CompareOutcome::undecided;
+};
+
+// Throws Error if they cannot be compared: different sizes, missing channels, an unknown metric.
+Comparison compare(const Image& a, const Image& b, const CompareOptions& options = {});
+
+// The value of a metric by the name that thresholds use. Throws Error if there is none of that name.
+double metric_value(const Metrics& metrics, std::string_view name);
+
+// |a - b| (the largest of the channels), or the FLIP map of a comparison that has one, in false colours above a bar
+// with its scale, as linear colours to be written as .png. Pixels that are not finite are green.
+Image difference_image(const Image& a, const Image& b);
+Image flip_image(const Comparison& comparison);
+
+} // namespace plumb

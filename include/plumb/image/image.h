@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Pictures in memory and on disk. The pixels live in an OpenImageIO ImageBuf of 32-bit floats; src/image/oiio is its
+// only user.
+//
+// Conventions. Row 0 is the top row. Values are linear light unless a parameter says otherwise.
+
+#include "plumb/math/color.h"
+
+#include <atomic>
+#include <filesystem>
+#include <future>
+#include <memory>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace plumb {
+
+// A rectangle of pixels: columns [x, x + width), rows [y, y + height).
+struct PixelRect {
+    int x = 0;
+    int y = 0;
+    int width = 0;
+    int height = 0;
+    friend bool operator==(const PixelRect&, const PixelRect&) = default;
+};
+
+// What an image file's header says, in a fixed order. Matrices are 16 floats, row-major.
+using MetadataValue = std::variant<int, float, std::string, std::vector<float>>;
+using Metadata = std::vector<std::pair<std::string, MetadataValue>>;
+
+class Image {
+public:
+    // data: the pixels that exist, inside a full picture of full_width x full_height. Throws Error if memory is short.
+    Image(PixelRect data, int full_width, int full_height,
+          std::vector<std::string> channels = {"R", "G", "B"});
+    Image(int width, int height) : Image({0, 0, width, height}, width, height) {}
+    Image(Image&&) noexcept;
+    Image& operator=(Image&&) noexcept;
+    ~Image();
+
+    const PixelRect& data_window() const;
+    int full_width() const;
+    int full_height() const;
+    int channel_count() const;
+    const std::vector<std::string>& channel_names() const;
+
+    // x, y: inside the data window, in coordinates of the full picture. channel_count() floats.
+    float* pixel(int x, int y);
+    const float* pixel(int x, int y) const;
+    Color color(int x, int y) const; // the first three channels, or the first one three times
+
+    Metadata metadata; // what read_image found, and what write_image writes
+
+private:
+    friend Image read_image(const std::filesystem::path& path, bool decode_srgb);
+    struct Impl;
+    explicit Image(std::unique_ptr<Impl> impl);
+    std::unique_ptr<Impl> impl_;
+};
+
+// Reads any format that OpenImageIO reads. Integer formats become value / maximum; decode_srgb also undoes the sRGB
+// curve for 8-bit and 16-bit integer formats (floating-point formats are linear). Throws Error naming the file.
+Image read_image(const std::filesystem::path& path, bool decode_srgb);
+
+// Channels of a rendered picture that say how sure it is (film.h), not how it looks: "variance.*" and "contributing".
+inline bool is_evidence_channel(const std::string& name)
+{
+    return name.starts_with("variance.") || name == "contributing";
+}
+
+// How a picture is compressed, without loss: fast takes a sixth of the time of small for an .exr, which gets some 12 % larger
+// where it is noisy, and much larger where it is smooth.
+enum class Packing { small, fast };
+
+// Writes by extension: .exr (32-bit float, ZIP or, fast, RLE, data and display window), .hdr, .tif/.tiff (float), .png and .jpg
+// (8-bit sRGB after multiplying by 2^exposure; clamped, rounded). The file appears whole or not at all: it is
+// written beside `path` and renamed. Metadata goes into formats that can hold it; so do channels of evidence, which must be
+// the last ones (.exr only). Same image, same bytes.
+void write_image(const std::filesystem::path& path, const Image& image, float exposure = 0.f,
+                 Packing packing = Packing::small);
+
+// Throws Error if `path` cannot be written: unknown extension, missing or read-only directory, a directory of that name.
+void check_image_path(const std::filesystem::path& path);
+
+// What pictures take: OpenImageIO and some 260 libraries below it, which take a quarter of a second to load. The first
+// picture that is made, read or written waits for them; one of these loads them meanwhile.
+class ImageLibrary {
+public:
+    ImageLibrary(); // begins, in a thread of its own
+    ImageLibrary(const ImageLibrary&) = delete;
+    ImageLibrary& operator=(const ImageLibrary&) = delete;
+    ~ImageLibrary(); // waits
+
+    bool failed() const { return failed_; } // from any thread
+    void wait();                            // throws Error if it failed
+
+    // Loads it. A hash of the file that Plumb's own part of it was loaded from, taken then; empty if it cannot be read.
+    static const std::string& hash();
+
+private:
+    std::atomic<bool> failed_ = false;
+    std::future<void> loading_;
+};
+
+} // namespace plumb

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The interface of BSDFs.
+
+#include "plumb/math/color.h"
+#include "plumb/model/surface.h"
+
+#include <optional>
+
+namespace plumb {
+
+enum class Lobe : unsigned {
+    diffuse_reflection = 1,
+    glossy_reflection = 2,
+    glossy_transmission = 4,
+    delta_reflection = 8,
+    delta_transmission = 16,
+};
+
+// A set of lobes.
+struct Lobes {
+    unsigned bits = 0;
+    constexpr Lobes() = default;
+    constexpr Lobes(Lobe lobe) : bits(static_cast<unsigned>(lobe)) {}
+    constexpr explicit Lobes(unsigned b) : bits(b) {}
+    constexpr bool has_any(Lobes other) const { return (bits & other.bits) != 0; }
+    friend constexpr Lobes operator|(Lobes a, Lobes b) { return Lobes(a.bits | b.bits); }
+};
+constexpr Lobes operator|(Lobe a, Lobe b)
+{
+    return Lobes(a) | Lobes(b);
+}
+inline constexpr Lobes delta_lobes = Lobe::delta_reflection | Lobe::delta_transmission;
+inline constexpr Lobes transmission_lobes = Lobe::glossy_transmission | Lobe::delta_transmission;
+
+struct BsdfValue {
+    Color f_cos;
+    float pdf = 0.f;
+};
+
+struct BsdfSample {
+    Vec3f wo;
+    Color
+        weight; // f_cos / pdf, or for delta lobes the reflectance divided by the chance of choosing the lobe
+    float pdf = 0.f; // per unit solid angle; for delta lobes the chance of choosing the lobe
+    Lobe lobe = Lobe::diffuse_reflection;
+    float eta = 1.f; // index of wo's side / index of wi's side: 1 unless refracted
+
+    bool is_delta() const { return delta_lobes.has_any(lobe); }
+    bool is_transmission() const { return transmission_lobes.has_any(lobe); }
+};
+
+// Conventions (after Veach 1997, section 3.7). wi: towards where the path came from (the camera's side), given.
+// wo: where the path goes on (the light's side), sampled. Both have unit length, point away from the surface and
+// live in the shading frame (z is the shading normal, front side up). Densities are per unit solid angle of wo and
+// include the choice of a lobe. Every value includes |cos theta_o|. Delta lobes are invisible to evaluate().
+// Radiance is transported: refraction scales it by (eta_i / eta_t)^2 in the value (Veach 1997, section 5.2).
+//
+// For every wo from sample() that is not delta: weight * pdf equals evaluate(wi, wo).f_cos and the pdfs agree.
+// Nothing, from sample(): the path ends here (absorbed, or wi on a side that does not reflect).
+class Bsdf {
+public:
+    virtual ~Bsdf() = default;
+    virtual Lobes lobes() const = 0;
+    virtual BsdfValue evaluate(const SurfacePoint& at, const Vec3f& wi, const Vec3f& wo) const = 0;
+    virtual std::optional<BsdfSample> sample(const SurfacePoint& at, const Vec3f& wi, float u_lobe,
+                                             const Vec2f& u) const = 0;
+};
+
+} // namespace plumb

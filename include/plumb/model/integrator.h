@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The interface of integrators.
+
+#include "plumb/math/color.h"
+#include "plumb/math/ray.h"
+
+#include <string>
+
+namespace plumb {
+
+class Sampler;
+class Scene;
+class Tracer;
+
+class Integrator {
+public:
+    virtual ~Integrator() = default;
+
+    // Called once, when the scene is complete. Throws Error if the integrator cannot render it.
+    virtual void prepare(const Scene&) {}
+
+    // An unbiased estimate of the radiance that arrives along `ray`, against its direction. Calls the sampler in an
+    // order that depends on the path alone.
+    virtual Color radiance(Tracer& tracer, Sampler& sampler, const Ray& ray) const = 0;
+
+    // How the expectation of radiance() differs from the light that arrives, by the integrator's nature or its
+    // parameters: "light of more than 5 surface bounces is left out". Empty where it does not.
+    virtual std::string bias() const = 0;
+
+    // Whether a scene without lamps is black.
+    virtual bool needs_lamps() const { return true; }
+};
+
+} // namespace plumb

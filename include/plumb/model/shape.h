@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The interface of shapes.
+
+#include "plumb/math/direction_cone.h"
+#include "plumb/model/surface.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+namespace plumb {
+
+// Receives what a shape is made of; implemented over Embree, which shapes never see. The spans must live as long
+// as the shape: they are not copied. Embree reads 16 bytes at a position, so that 4 bytes after the last one must be
+// readable, too.
+class AccelBuilder {
+public:
+    using Triangle = std::array<std::uint32_t, 3>;
+    virtual ~AccelBuilder() = default;
+    virtual void add_triangles(std::span<const Vec3f> positions, std::span<const Triangle> triangles) = 0;
+    virtual void add_sphere(const Vec3f& center, float radius) = 0;
+};
+
+// A point chosen on a shape. pdf is per unit area or per unit solid angle, as the function says.
+struct alignas(16) ShapeSample {
+    Vec3f position;
+    float clearance; // as in SurfacePoint
+    Vec3f normal;    // geometric, unit length, front side
+    float pdf;
+    Vec2f uv;
+};
+
+// Conventions. World space: toWorld is applied when a shape is built. The front side is the one that normals point
+// to. u_select in [0, 1) has 53 random bits and chooses among parts; u places the point inside the part.
+class Shape {
+public:
+    virtual ~Shape() = default;
+
+    virtual void add_to(AccelBuilder& builder) const = 0;
+
+    // The point where `ray`, which meets `primitive` according to Embree, meets it according to our own arithmetic.
+    // Leaves bsdf and emitter null.
+    virtual SurfacePoint surface_at(const Ray& ray, std::uint32_t primitive) const = 0;
+
+    // Must be called before sample_area; shapes whose surface is never sampled keep no table for it.
+    virtual void prepare_sampling() {}
+    // Uniform over the area; pdf = 1 / area().
+    virtual ShapeSample sample_area(double u_select, const Vec2f& u) const = 0;
+
+    // Uniform over the solid angle that the shape subtends at `from`; nothing where the shape cannot do that from
+    // there, or where sample_area is as good (inside a sphere, behind a rectangle or far from it; of meshes, only those
+    // that are rectangles can). pdf per unit solid angle.
+    virtual std::optional<ShapeSample> sample_solid_angle(const Vec3f& from, const Vec2f& u) const;
+    // The density of sample_solid_angle(from), constant over the visible part; nothing where that returns nothing.
+    virtual std::optional<float> solid_angle_pdf(const Vec3f& from) const;
+    // Whether sample_solid_angle ever returns something.
+    virtual bool has_solid_angle() const { return false; }
+
+    virtual float area() const = 0;
+    virtual Box3f bounds() const = 0;
+    virtual DirectionCone normals() const = 0; // holds all geometric normals
+    virtual std::uint64_t triangle_count() const { return 0; }
+    virtual std::uint64_t memory_bytes() const { return 0; } // of its mesh, if it has one
+};
+
+} // namespace plumb

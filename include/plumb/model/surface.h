@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Where a ray met the scene, and how to leave that place.
+
+#include "plumb/math/frame.h"
+#include "plumb/math/ray.h"
+
+namespace plumb {
+
+class Shape;
+class Bsdf;
+class Emitter;
+
+// Conventions. World space. geometric_normal has unit length and is the true normal of the surface, on the side
+// that the shape calls its front (the side of the vertex normals where a mesh has them); shading.n is interpolated.
+// clearance: how far along the geometric normal a ray must start, so as not to meet the same surface again (ray.h).
+struct alignas(16) SurfacePoint {
+    Vec3f position;
+    float clearance = 0.f;
+    Vec3f geometric_normal;
+    std::uint32_t primitive = 0;
+    Frame shading;
+    std::uint32_t emitter_index = 0; // into the scene's emitters; meaningless without emitter
+    Vec2f uv;
+    const Shape* shape = nullptr;
+    const Bsdf* bsdf = nullptr;       // never null at a point that Scene returns
+    const Emitter* emitter = nullptr; // null where nothing is emitted
+
+    // A ray leaving in `direction` (any length), started off the surface on that side.
+    Ray spawn_ray(const Vec3f& direction) const
+    {
+        return {offset_origin(position, clearance, geometric_normal, direction), direction, 0.f, infinity};
+    }
+};
+
+} // namespace plumb

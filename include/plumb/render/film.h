@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Where samples add up, exactly.
+//
+// A pixel's sum is a 128-bit integer a channel, in units of 2^-64: integer addition is associative, so the sum has
+// the same bits whatever the order, the threads and the passes. A sample is rounded once, to the nearest unit
+// (5.4e-20). Range: |sample| < 2^37 (1.4e11) and at most 2^26 samples a pixel, whose sum is below 2^127 units.
+// A sample outside that range, not finite, or negative before the filter's weight is left out and counted: never
+// wrapped, clamped or repaired.
+//
+// For the error bars there is also the sum of the samples' squares, in the same units and as exact; the squares of samples
+// of 2^18 and more, which few pictures have, are kept in a table aside, in units of 2^-20. 112 bytes a pixel.
+
+#include "plumb/image/image.h"
+#include "plumb/math/color.h"
+#include "plumb/model/sampler.h"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace plumb {
+
+// Why a sample was left out.
+enum class Verdict { accepted, not_finite, negative, out_of_range };
+
+inline constexpr float film_max_value = 0x1p37f;
+inline constexpr std::uint64_t film_max_samples = max_samples_per_pixel;
+inline constexpr std::size_t film_bytes_per_pixel = 112;
+
+// What an image holds: R, G and B, or also variance.R, variance.G and variance.B (Film::variance_of_mean) and
+// contributing (Film::contributing_count).
+enum class Channels { color, color_and_evidence };
+
+class Film {
+public:
+    // window: the pixels kept, of a picture of full_width x full_height. Throws Error if memory is short.
+    Film(PixelRect window, int full_width, int full_height);
+    Film(Film&&) noexcept;
+    Film& operator=(Film&&) noexcept;
+    ~Film();
+
+    const PixelRect& window() const { return window_; }
+
+    // pixel: in coordinates of the full picture. weight: the filter's. Different pixels from different threads; one
+    // pixel from one thread at a time.
+    Verdict add(Vec2i pixel, const Color& radiance, float weight);
+
+    std::uint64_t sample_count(Vec2i pixel) const;       // accepted ones
+    std::uint64_t contributing_count(Vec2i pixel) const; // those of them that were not black
+    // The estimated variance of the pixel's value, channel by channel: the sample variance, s^2 = sum (x - mean)^2 / (n - 1),
+    // over n. Unbiased where samples are independent. Not a number, for unknown, below two samples.
+    Color variance_of_mean(Vec2i pixel) const;
+
+    // Mean of the accepted samples; black where there is none.
+    Image develop(Channels channels = Channels::color) const;
+
+    // Adds what another film of the same window has: the film of all the samples of both, bit for bit.
+    Film& operator+=(const Film& other);
+
+    // All that is known of a pixel, as 32-bit words, for files: sums and sums of squares of red, green and blue in units of
+    // 2^-64, the lowest word first, then sample_count and contributing_count. And the sums of the large squares of red,
+    // green and blue in units of 2^-20, which are 0 for most pixels of most films.
+    using Words = std::array<std::uint32_t, 26>;
+    using LargeWords = std::array<std::uint32_t, 12>;
+    Words words(Vec2i pixel) const;
+    void set_words(Vec2i pixel, const Words& words);
+    bool has_large_squares() const;
+    LargeWords large_words(Vec2i pixel) const;
+    void set_large_words(Vec2i pixel, const LargeWords& words);
+
+private:
+    __extension__ typedef __int128 Sum;
+    struct Pixel {
+        Sum sum[3] = {0, 0, 0};
+        Sum squares[3] = {0, 0, 0};
+        std::uint32_t count = 0; // at most 2^26
+        std::uint32_t contributing = 0;
+    };
+    struct LargeSquares;
+    std::size_t index(Vec2i pixel) const;
+    void add_channel(std::size_t pixel, int channel, float value);
+    double mean(std::size_t pixel, int channel) const;
+    double variance_of_mean(std::size_t pixel, int channel) const;
+
+    PixelRect window_;
+    int full_width_;
+    int full_height_;
+    std::vector<Pixel> pixels_;
+    std::unique_ptr<LargeSquares> large_squares_;
+};
+
+} // namespace plumb

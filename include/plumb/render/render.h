@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Rendering a loaded scene.
+
+#include "plumb/model/camera.h"
+#include "plumb/model/filter.h"
+#include "plumb/model/integrator.h"
+#include "plumb/model/sampler.h"
+#include "plumb/render/film.h"
+#include "plumb/render/sample_set.h"
+#include "plumb/scene/tracer.h"
+
+#include <functional>
+#include <memory>
+#include <optional>
+
+namespace plumb {
+
+// Everything that a picture depends on, but for the seed and the number of samples.
+struct RenderJob {
+    Scene scene;
+    std::unique_ptr<Camera> camera;
+    std::unique_ptr<Integrator> integrator;
+    std::unique_ptr<Sampler> sampler;
+    std::unique_ptr<Filter> filter;
+};
+
+struct RenderOptions {
+    std::uint64_t samples_per_pixel = 0; // 0: what the sampler says
+    std::uint64_t seed = 0;
+    int threads = 0;               // 0: all
+    int tile_size = 32;            // pixels; changes no bit of the picture
+    std::optional<PixelRect> crop; // inside the picture
+};
+
+// Samples that were left out of the film. `first` is the smallest in the order (row, column, sample index).
+struct LeftOut {
+    struct Sample {
+        Vec2i pixel;
+        std::uint64_t index = 0;
+        Color value;
+        Verdict verdict = Verdict::accepted;
+    };
+    std::uint64_t count = 0;
+    Sample first; // meaningless when count is 0
+
+    void add(const Sample& sample);
+    LeftOut& operator+=(const LeftOut& other);
+};
+
+// What has been rendered so far: enough to make the picture of, and to go on from.
+struct RenderState {
+    Film film;
+    SampleSet taken; // those left out included
+    RayCounts rays;
+    LeftOut left_out;
+    double seconds = 0.0; // of rendering
+
+    // Adds the work of another; of the same job, seed and window, and with none of its samples.
+    RenderState& operator+=(const RenderState& other);
+};
+
+struct Progress {
+    std::uint64_t samples_done = 0;
+    std::uint64_t samples_total = 0;
+    std::uint64_t samples_before = 0; // of those done, before `seconds` began
+    std::uint64_t rays = 0;           // in `seconds`
+    double seconds = 0.0;
+};
+// Called from one thread at a time, between tiles.
+using ProgressReport = std::function<void(const Progress&)>;
+// Asked from all threads, for each row of a tile: whether to stop soon.
+using Pause = std::function<bool()>;
+
+// The pixels that the options want of the job's picture, and how many samples of each. They throw Error for a crop outside
+// the picture and for too many samples.
+PixelRect render_window(const RenderJob& job, const RenderOptions& options);
+std::uint64_t render_samples(const RenderJob& job, const RenderOptions& options);
+int render_threads(const RenderOptions& options);
+
+// A picture in the making. What a set of samples gives depends on job, seed and the set, and on nothing else: not on
+// threads, tiles, crop, or the order and the calls in which they are taken.
+class Rendering {
+public:
+    // The job must outlive it. Throws what render_window() throws, and Error if memory is short.
+    Rendering(const RenderJob& job, const RenderOptions& options);
+    // Goes on from a state of the same job, seed and window.
+    Rendering(const RenderJob& job, const RenderOptions& options, RenderState state);
+    Rendering(const Rendering&) = delete;
+    Rendering& operator=(const Rendering&) = delete;
+
+    // Takes what has not been taken of the wanted samples, until pause says so. Whether all of them are taken now.
+    bool take(const SampleSet& wanted, const ProgressReport& progress = {}, const Pause& pause = {});
+
+    const RenderState& state() const { return state_; }
+    RenderState finish() && { return std::move(state_); }
+
+private:
+    const RenderJob& job_;
+    const RenderOptions options_;
+    RenderState state_;
+};
+
+// All samples that the options ask for.
+RenderState render(const RenderJob& job, const RenderOptions& options, const ProgressReport& progress = {});
+
+// One sample of one pixel, exactly as render() takes it: its value, its filter weight and, in `log`, its path.
+struct ReplayedSample {
+    Color value;
+    Vec2f raster;
+    float weight = 1.f;
+    Verdict verdict = Verdict::accepted;
+    std::vector<PathEvent> log;
+};
+ReplayedSample replay(const RenderJob& job, std::uint64_t seed, Vec2i pixel, std::uint64_t sample_index);
+
+} // namespace plumb

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The scene: owns shapes, BSDFs and emitters, and answers what a ray meets.
+
+#include "plumb/model/bsdf.h"
+#include "plumb/model/emitter.h"
+#include "plumb/model/shape.h"
+#include "plumb/scene/instruction_set.h"
+#include "plumb/scene/light_tree.h"
+
+#include <memory>
+#include <vector>
+
+namespace plumb {
+
+// A shape, what it is made of, and the light it gives. bsdf is never null; emitter may be.
+struct SceneObject {
+    std::unique_ptr<Shape> shape;
+    std::unique_ptr<Bsdf> bsdf;
+    std::unique_ptr<Emitter> emitter;
+    std::string name; // "mesh 'obj' (cbox.xml:12)", for people
+};
+
+struct SceneOptions {
+    bool emitters_absorb = false;                                // paths end at emitters
+    std::string instruction_set{default_instruction_set().name}; // Embree traces with this and no other
+};
+
+// Bytes that a scene takes as long as it is there; and what Embree took at most while it built.
+struct SceneMemory {
+    std::uint64_t meshes = 0;
+    std::uint64_t acceleration = 0;
+    std::uint64_t acceleration_peak = 0;
+    std::uint64_t pictures = 0; // of environments
+};
+
+// Conventions. World space. Emitters are chosen by what they are expected to send to the receiver (light_tree.h).
+class Scene {
+public:
+    // lights: the emitters that no shape carries. Builds the acceleration structure; throws Error if Embree cannot.
+    Scene(std::vector<SceneObject> objects, std::vector<std::unique_ptr<Emitter>> lights,
+          const SceneOptions& options = {});
+    Scene(Scene&&) noexcept;
+    Scene& operator=(Scene&&) noexcept;
+    ~Scene();
+
+    std::optional<SurfacePoint> intersect(const Ray& ray) const;
+    bool occluded(const Ray& ray) const;
+    // The ray between a surface point and a light's chosen point, clear of both surfaces.
+    static Ray shadow_ray(const SurfacePoint& from, const EmitterSample& light)
+    {
+        if (light.distance == infinity) return from.spawn_ray(light.wi);
+        // Both ends are moved off their surfaces towards each other; what lies strictly between them is in the way.
+        const Vec3f origin = offset_origin(from.position, from.clearance, from.geometric_normal, light.wi);
+        const float end = end_clearance(light.clearance, light.normal, light.wi * light.distance);
+        const Vec3f target = light.position + light.normal * end;
+        return {origin, target - origin, 0.f, one_minus_epsilon};
+    }
+
+    // A point of one emitter, chosen by u_choice (which is used up: what is left of it selects a part of the
+    // emitter), among all or among point and directional lights alone. pdf includes the choice.
+    std::optional<EmitterSample> sample_emitter(const LightReceiver& receiver, double u_choice,
+                                                const Vec2f& u, Measure measure = Measure::best) const;
+    std::optional<EmitterSample> sample_delta_emitter(const LightReceiver& receiver, double u_choice,
+                                                      const Vec2f& u) const;
+    // What a ray from the receiver along unit wi sees: the emitter of the surface it hit or, with hit == nullptr,
+    // all infinite emitters. pdf: as sample_emitter would have chosen it for the same receiver (of which cameras and
+    // delta bounces, whose directions no other technique finds, need no more than the position). Black where
+    // nothing is emitted.
+    EmitterValue emission(const LightReceiver& receiver, const Vec3f& wi, const SurfacePoint* hit,
+                          Measure measure = Measure::best) const;
+
+    bool has_delta_emitters() const { return delta_choice_.can_sample(); }
+    bool emitters_absorb() const { return options_.emitters_absorb; }
+    const std::vector<const Emitter*>& emitters() const { return emitters_; } // all, in document order
+    const std::vector<SceneObject>& objects() const { return objects_; }
+    Box3f bounds() const;
+    std::uint64_t triangle_count() const;
+    SceneMemory memory() const;
+    const SceneOptions& options() const { return options_; }
+    std::string embree_version() const; // "3.13.5"
+
+private:
+    class Accel;
+    std::optional<EmitterSample> sample_chosen(const LightTree::Choice& choice, const LightReceiver& receiver,
+                                               const Vec2f& u, Measure measure) const;
+
+    SceneOptions options_;
+    std::vector<SceneObject> objects_;
+    std::vector<std::unique_ptr<Emitter>> lights_;
+    std::vector<const Emitter*> emitters_;         // those of objects_, then lights_
+    std::vector<std::uint32_t> emitter_of_object_; // index into emitters_
+    std::vector<std::uint32_t> infinite_;          // indices of infinite, not delta emitters
+    LightTree choice_;
+    LightTree delta_choice_; // among delta emitters alone
+    std::unique_ptr<Accel> accel_;
+};
+
+} // namespace plumb

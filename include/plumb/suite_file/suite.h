@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Reading a suite: an XML file that lists pictures to render, and what to compare them with.
+//
+//     <suite size="160x120">                                     settings of every picture in it
+//         <render scene="cbox.xml" spp="16, 64" reference="references/cbox.exr" reference-spp="1024"/>
+//         <group name="hw4" max="rmse=0.01">                     and of those in a part of it
+//             <render scene="box.xml" name="explicit"> <define name="explicit" value="true"/> </render>
+//         </group>
+//     </suite>
+//
+// Settings are options of the command line by their names; an empty one is as if it were not there. <default>, <include> and $name are the scene language's.
+
+#include "plumb/base/error.h"
+
+#include <filesystem>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace plumb {
+
+// An attribute, and where its value stands.
+struct SuiteSetting {
+    std::string value;
+    SourceLocation at;
+};
+
+// One picture.
+struct SuiteEntry {
+    std::string
+        name; // of the picture in the output directory, without sample count and ending: "hw4/explicit"
+    std::filesystem::path scene;
+    SourceLocation scene_at;
+    std::string scene_way_out; // if there is no such file: "; did you mean '../a.xml'?", or empty
+    std::map<std::string, SuiteSetting> settings; // spp among them, where it is given: one number
+    std::map<std::string, std::string> definitions;
+    std::filesystem::path reference; // empty: none
+    SourceLocation reference_at;
+    std::map<std::string, SuiteSetting> reference_settings; // what makes the reference instead: spp and seed
+    SourceLocation at;
+
+    // "hw4/explicit_64"; without a number where the scene says how many samples.
+    std::string title() const;
+};
+
+struct Suite {
+    std::filesystem::path path;
+    std::vector<std::filesystem::path> files; // that it was read from, the main one first
+    std::vector<SuiteEntry> entries;          // at least one; no two have one title
+};
+
+// known_settings: the names that are allowed. Throws SceneError with everything that is wrong with the file, or Error if
+// it cannot be read. Scenes need not exist, but a pattern (* and ? in the name of a scene file) must match some.
+Suite load_suite(const std::filesystem::path& path, const std::map<std::string, std::string>& definitions,
+                 std::span<const std::string_view> known_settings);
+
+// Whether the whole text is what the pattern says: ? is any character, * any number of them.
+bool matches_pattern(std::string_view text, std::string_view pattern);
+
+} // namespace plumb

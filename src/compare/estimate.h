@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// What a comparison reads of an image, by the names of the channels.
+
+#include "plumb/compare/compare.h"
+
+namespace plumb {
+
+struct Picture {
+    PixelRect window; // the pixels that exist
+    int full_width = 0;
+    int full_height = 0;
+    std::vector<std::string> channels; // R, G and B, or Y
+    std::vector<float> values;         // of each pixel, its channels
+    std::vector<float> variances;      // likewise; empty: unknown
+    std::vector<float> contributing;   // one a pixel; empty: unknown
+    std::optional<double> samples_per_pixel;
+    std::string estimator; // what the header says of scene, settings and integrator; empty: not enough
+    std::string seed;      // of its random numbers; empty: unknown
+
+    std::size_t pixels() const { return values.size() / channels.size(); }
+    bool is_exact = false; // has no noise, whatever the channels say
+    bool knows_noise() const { return is_exact || !variances.empty(); }
+    float value(std::size_t pixel, std::size_t channel) const
+    {
+        return values[pixel * channels.size() + channel];
+    }
+    double variance(std::size_t pixel, std::size_t channel) const
+    {
+        return is_exact ? 0.0 : static_cast<double>(variances[pixel * channels.size() + channel]);
+    }
+    Color color(std::size_t pixel) const; // grey where there is only Y
+    bool is_finite(std::size_t pixel) const;
+    // All channels have a variance that is known: finite and not negative.
+    bool variance_is_known(std::size_t pixel) const;
+};
+
+// `side` names the picture in messages. Throws Error if it has neither R, G and B nor Y.
+Picture make_picture(const Image& image, Side side);
+
+// The samples of both have one distribution: the headers name the same inputs, settings and integrator.
+bool are_of_one_estimator(const Picture& a, const Picture& b);
+// And the same random numbers.
+bool share_random_numbers(const Picture& a, const Picture& b);
+
+// Of both pictures: the same channels, sizes and windows. Throws Error.
+void check_comparable(const Picture& a, const Picture& b);
+
+} // namespace plumb

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+
+// Pictures in memory, and reading them.
+
+#include "plumb/image/image.h"
+
+#include "base/regular_file.h"
+#include "image/image_file.h"
+#include "image/image_module.h"
+#include "plumb/base/error.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <new>
+#include <span>
+
+namespace plumb {
+
+struct Image::Impl {
+    PixelRect data;
+    int full_width = 0;
+    int full_height = 0;
+    std::vector<std::string> names;
+    std::unique_ptr<PixelBuffer> buffer;
+    int channels = static_cast<int>(names.size());
+    float* pixels = buffer->pixels();
+
+    std::size_t offset(int x, int y) const
+    {
+        const auto row = static_cast<std::size_t>(y - data.y);
+        const auto column = static_cast<std::size_t>(x - data.x);
+        return (row * static_cast<std::size_t>(data.width) + column) * static_cast<std::size_t>(channels);
+    }
+};
+
+Image::Image(PixelRect data, int full_width, int full_height, std::vector<std::string> channels)
+{
+    auto buffer = image_module().make_buffer(data, full_width, full_height, channels, true);
+    impl_ =
+        std::make_unique<Impl>(Impl{data, full_width, full_height, std::move(channels), std::move(buffer)});
+}
+
+Image::Image(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Image::Image(Image&&) noexcept = default;
+Image& Image::operator=(Image&&) noexcept = default;
+Image::~Image() = default;
+
+const PixelRect& Image::data_window() const
+{
+    return impl_->data;
+}
+
+int Image::full_width() const
+{
+    return impl_->full_width;
+}
+
+int Image::full_height() const
+{
+    return impl_->full_height;
+}
+
+int Image::channel_count() const
+{
+    return impl_->channels;
+}
+
+const std::vector<std::string>& Image::channel_names() const
+{
+    return impl_->names;
+}
+
+float* Image::pixel(int x, int y)
+{
+    return impl_->pixels + impl_->offset(x, y);
+}
+
+const float* Image::pixel(int x, int y) const
+{
+    return impl_->pixels + impl_->offset(x, y);
+}
+
+Color Image::color(int x, int y) const
+{
+    const float* const p = pixel(x, y);
+    return impl_->channels >= 3 ? Color(p[0], p[1], p[2]) : Color(p[0]);
+}
+
+namespace {
+
+// value[i] = i / (size - 1), through the sRGB curve if asked.
+std::vector<float> integer_values(std::size_t size, bool decode_srgb)
+{
+    std::vector<float> values(size);
+    for (std::size_t i = 0; i < size; ++i) {
+        const float x = static_cast<float>(i) / static_cast<float>(size - 1);
+        values[i] = decode_srgb ? linear_from_srgb(x) : x;
+    }
+    return values;
+}
+
+// The floats that OpenImageIO made of integers, made exact and, but for alpha, decoded.
+void convert_integers(const DecodedPicture& picture, bool decode_srgb)
+{
+    const std::size_t size = picture.integer_levels;
+    const std::vector<float> plain = integer_values(size, false);
+    const std::vector<float> decoded = integer_values(size, decode_srgb);
+    const std::size_t channels = picture.channels.size();
+    const std::size_t pixels =
+        static_cast<std::size_t>(picture.data.width) * static_cast<std::size_t>(picture.data.height);
+    const auto largest = static_cast<float>(size - 1);
+    const std::span<float> values(picture.buffer->pixels(), pixels * channels);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const bool is_alpha = static_cast<int>(i % channels) == picture.alpha_channel;
+        const auto integer = static_cast<std::size_t>(std::lround(values[i] * largest));
+        values[i] = (is_alpha ? plain : decoded)[std::min(integer, size - 1)];
+    }
+}
+
+} // namespace
+
+Image read_image(const std::filesystem::path& path, bool decode_srgb)
+{
+    const std::string name = path.string();
+    const auto fail = [&name](std::string reason) -> Error {
+        return Error(fmt::format("cannot read '{}': {}", name, reason.empty() ? "not a picture" : reason));
+    };
+    if (std::string problem = problem_of_file(path); !problem.empty()) throw fail(std::move(problem));
+    if (is_truncated_png(path)) throw fail("the file ends early");
+    const ImageModule& module = image_module();
+    try {
+        DecodedPicture picture = module.read(name);
+        if (picture.integer_levels > 0) convert_integers(picture, decode_srgb);
+        Image image(std::make_unique<Image::Impl>(
+            Image::Impl{picture.data, picture.full_width, picture.full_height, std::move(picture.channels),
+                        std::move(picture.buffer)}));
+        image.metadata = std::move(picture.metadata);
+        return image;
+    } catch (const std::bad_alloc&) {
+        throw fail("not enough memory");
+    } catch (const std::exception& e) { // ours, and whatever OpenImageIO lets through
+        throw fail(e.what());
+    }
+}
+
+} // namespace plumb

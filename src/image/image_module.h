@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The door to OpenImageIO. Debian's needs some 260 other libraries, which take longer to load than a mistake in a scene
+// takes to be found. So what uses it (src/image/oiio) is a library of its own, libplumb_images.so, which is loaded when the
+// first picture is made, read or written, or before (ImageLibrary).
+
+#include "image/image_words.h"
+#include "plumb/image/image.h"
+
+#include <cstdint>
+#include <memory>
+
+namespace plumb {
+
+// An OpenImageIO ImageBuf: rows from the top, without padding.
+class PixelBuffer {
+public:
+    virtual ~PixelBuffer() = default;
+    virtual float* pixels() = 0;
+};
+
+// No picture has a pixel farther than that from the full picture's corner, and none is larger: ends of windows are ints.
+inline constexpr int farthest_pixel = 1 << 30;
+
+// A file's picture: integers are divided by their maximum.
+struct DecodedPicture {
+    PixelRect data;
+    int full_width = 0;
+    int full_height = 0;
+    std::vector<std::string> channels;
+    std::unique_ptr<PixelBuffer> buffer;
+    std::size_t integer_levels = 0; // 256 or 65536; 0: floats
+    int alpha_channel = -1;
+    Metadata metadata;
+};
+
+// A picture on its way into a file.
+struct PictureFile {
+    std::string name; // its extension says the format
+    PixelRect data = {};
+    int full_width = 0;
+    int full_height = 0;
+    std::vector<std::string> channels = {};
+    const Metadata& metadata;
+    Metadata format = {};                // what else OpenImageIO is told: compression and the like
+    const float* floats = nullptr;       // either these,
+    int floats_per_pixel = 0;            // so far apart,
+    const std::uint8_t* bytes = nullptr; // or these
+};
+
+// All throw Error with the reason, in whatever words OpenImageIO has for it, std::bad_alloc, or what OpenImageIO lets
+// through.
+class ImageModule {
+public:
+    virtual ~ImageModule() = default;
+
+    // clear: all values are 0; else they are anything, and memory that is not touched costs nothing.
+    virtual std::unique_ptr<PixelBuffer> make_buffer(const PixelRect& data, int full_width, int full_height,
+                                                     const std::vector<std::string>& channels,
+                                                     bool clear) const = 0;
+    virtual DecodedPicture read(const std::string& name) const = 0;
+    virtual std::vector<unsigned char> encode(const PictureFile& picture) const = 0;
+    virtual std::vector<unsigned char> encode_words(const WordImage& image, const FillRows& fill) const = 0;
+    virtual void read_words(const std::string& name, const ChooseChannels& choose,
+                            const UseRow& use) const = 0;
+};
+
+// Loads it, once. Throws Error if it is not there or cannot be loaded.
+const ImageModule& image_module();
+
+} // namespace plumb

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+
+// Writing pictures.
+
+#include "base/lower_case.h"
+#include "base/temporary_file.h"
+#include "image/image_module.h"
+#include "image/image_text.h"
+#include "plumb/base/error.h"
+#include "plumb/image/image.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <new>
+#include <span>
+#include <unistd.h>
+
+namespace plumb {
+
+namespace {
+
+enum class Encoding { linear_float, srgb_8bit };
+
+struct Format {
+    std::string_view extension;
+    Encoding encoding;
+    bool keeps_all; // channels beyond red, green and blue; and that a picture is a part of a larger one
+    std::string_view compression;
+    std::string_view fast_compression = compression;
+};
+
+constexpr Format formats[] = {
+    {".exr", Encoding::linear_float, true, "zip", "rle"},
+    {".hdr", Encoding::linear_float, false, ""},
+    {".tif", Encoding::linear_float, false, "zip"},
+    {".tiff", Encoding::linear_float, false, "zip"},
+    {".png", Encoding::srgb_8bit, false, ""},
+    {".jpg", Encoding::srgb_8bit, false, "jpeg:95"},
+    {".jpeg", Encoding::srgb_8bit, false, "jpeg:95"},
+};
+
+[[noreturn]] void fail(const std::filesystem::path& path, std::string_view reason)
+{
+    throw Error(fmt::format("cannot write '{}': {}", path.string(), reason));
+}
+
+const Format& format_of(const std::filesystem::path& path)
+{
+    const std::string extension = lower_case(path.extension().string());
+    std::string known;
+    for (const Format& format : formats) {
+        if (format.extension == extension) return format;
+        known += (known.empty() ? "" : ", ") + std::string(format.extension);
+    }
+    if (extension.empty()) fail(path, fmt::format("the name has no extension; known are {}", known));
+    fail(path, fmt::format("unknown extension '{}'; known are {}", path.extension().string(), known));
+}
+
+// Error bars go into formats that hold any channel. They come last.
+int channels_written(const Image& image, const Format& format)
+{
+    const std::vector<std::string>& names = image.channel_names();
+    const auto first_of_evidence = std::find_if(names.begin(), names.end(), is_evidence_channel);
+    return format.keeps_all ? image.channel_count() : static_cast<int>(first_of_evidence - names.begin());
+}
+
+std::vector<std::uint8_t> encode_srgb(const Image& image, int channels, float exposure)
+{
+    const PixelRect& data = image.data_window();
+    const auto written = static_cast<std::size_t>(channels);
+    const auto given = static_cast<std::size_t>(image.channel_count());
+    const std::size_t pixels = static_cast<std::size_t>(data.width) * static_cast<std::size_t>(data.height);
+    const float scale = exposure < 0.f ? 1.f / pow(2.f, -exposure) : pow(2.f, exposure);
+    const float* const linear = image.pixel(data.x, data.y);
+    std::vector<std::uint8_t> bytes(pixels * written);
+    for (std::size_t i = 0; i < bytes.size(); ++i) {
+        const float x = linear[i / written * given + i % written] * scale;
+        const float clamped = x > 0.f ? std::min(x, 1.f) : 0.f; // not a number: 0
+        bytes[i] = static_cast<std::uint8_t>(srgb_from_linear(clamped) * 255.f + 0.5f);
+    }
+    return bytes;
+}
+
+// What the file will hold.
+std::vector<unsigned char> encode(const std::string& name, const Image& image, const Format& format,
+                                  float exposure, Packing packing)
+{
+    const bool is_float = format.encoding == Encoding::linear_float;
+    const int channels = channels_written(image, format);
+    const PixelRect& data = image.data_window();
+    PictureFile file{.name = name, .metadata = image.metadata};
+    file.channels.assign(image.channel_names().begin(), image.channel_names().begin() + channels);
+    file.data = format.keeps_all ? data : PixelRect{0, 0, data.width, data.height};
+    file.full_width = format.keeps_all ? image.full_width() : data.width;
+    file.full_height = format.keeps_all ? image.full_height() : data.height;
+    file.format.emplace_back("oiio:ColorSpace", is_float ? "Linear" : "sRGB");
+    const std::string_view compression =
+        packing == Packing::fast ? format.fast_compression : format.compression;
+    if (!compression.empty()) file.format.emplace_back("compression", std::string(compression));
+    if (format.extension.starts_with(".jp")) file.format.emplace_back("jpeg:subsampling", "4:4:4");
+    if (is_float) {
+        file.floats = image.pixel(data.x, data.y);
+        file.floats_per_pixel = image.channel_count();
+        return image_module().encode(file);
+    }
+    const std::vector<std::uint8_t> bytes = encode_srgb(image, channels, exposure);
+    file.bytes = bytes.data();
+    return image_module().encode(file);
+}
+
+} // namespace
+
+void check_image_path(const std::filesystem::path& path)
+{
+    if (!path.has_filename()) fail(path, "no file name");
+    std::error_code error;
+    if (std::filesystem::is_directory(path, error)) fail(path, "a directory of that name exists");
+    format_of(path);
+    const std::filesystem::path end = end_of_links(path);
+    const std::filesystem::path directory = end.has_parent_path() ? end.parent_path() : ".";
+    if (!std::filesystem::exists(directory, error))
+        fail(path, fmt::format("the directory '{}' does not exist", directory.string()));
+    if (!std::filesystem::is_directory(directory, error))
+        fail(path, fmt::format("'{}' is not a directory", directory.string()));
+    if (std::filesystem::exists(path, error) && access(path.c_str(), W_OK) != 0)
+        fail(path, std::strerror(errno));
+    const TemporaryFile probe(path); // created, and removed
+}
+
+void write_image(const std::filesystem::path& path, const Image& image, float exposure, Packing packing)
+{
+    check_image_path(path);
+    TemporaryFile file(path);
+    std::vector<unsigned char> bytes;
+    try {
+        bytes = encode(path.string(), image, format_of(path), exposure, packing);
+    } catch (const std::bad_alloc&) {
+        fail(path, "not enough memory");
+    } catch (const std::exception& error) { // ours, and whatever OpenImageIO lets through
+        fail(path, reason_text(error.what()));
+    }
+    file.write(std::span<const unsigned char>(bytes));
+    file.take_place();
+}
+
+} // namespace plumb

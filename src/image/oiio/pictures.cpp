@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+
+// Pictures in memory, reading and encoding them.
+
+#include "image/image_text.h"
+#include "image/oiio/module.h"
+#include "image/oiio/quiet.h"
+#include "image/oiio/spec.h"
+#include "plumb/base/error.h"
+
+#include <OpenImageIO/imagebuf.h>
+#include <fmt/format.h>
+
+#include <new>
+
+namespace plumb {
+
+namespace {
+
+void check_size(const PixelRect& data, std::size_t channels)
+{
+    // Far more than any memory, and far from overflow.
+    constexpr double most_floats = 0x1p40;
+    const double floats = double(data.width) * double(data.height) * double(channels);
+    if (data.width < 1 || data.height < 1 || channels < 1 || floats > most_floats)
+        throw Error(fmt::format("a picture cannot have {} x {} pixels of {} channels", data.width,
+                                data.height, channels));
+}
+
+class Buffer final : public PixelBuffer {
+public:
+    Buffer(const OIIO::ImageSpec& spec, OIIO::InitializePixels initialize)
+    {
+        try {
+            buffer_.reset(spec, initialize);
+            pixels_ = static_cast<float*>(buffer_.localpixels());
+        } catch (const std::bad_alloc&) {
+            pixels_ = nullptr;
+        }
+        buffer_.geterror(); // else it would be printed
+        if (!pixels_)
+            throw Error(
+                fmt::format("not enough memory for a picture of {} x {} pixels", spec.width, spec.height));
+    }
+    float* pixels() override { return pixels_; }
+
+private:
+    OIIO::ImageBuf buffer_;
+    float* pixels_ = nullptr;
+};
+
+OIIO::ImageSpec spec_of(const PictureFile& picture)
+{
+    const PixelRect& data = picture.data;
+    OIIO::ImageSpec spec(data.width, data.height, static_cast<int>(picture.channels.size()),
+                         picture.bytes ? OIIO::TypeUInt8 : OIIO::TypeFloat);
+    spec.channelnames = picture.channels;
+    spec.x = data.x;
+    spec.y = data.y;
+    spec.full_width = picture.full_width;
+    spec.full_height = picture.full_height;
+    put_metadata(spec, picture.metadata);
+    for (const auto& [name, value] : picture.format) spec.attribute(name, std::get<std::string>(value));
+    return spec;
+}
+
+} // namespace
+
+std::unique_ptr<PixelBuffer> OiioModule::make_buffer(const PixelRect& data, int full_width, int full_height,
+                                                     const std::vector<std::string>& channels,
+                                                     bool clear) const
+{
+    check_size(data, channels.size());
+    OIIO::ImageSpec spec(data.width, data.height, static_cast<int>(channels.size()), OIIO::TypeFloat);
+    spec.x = data.x;
+    spec.y = data.y;
+    spec.full_width = full_width;
+    spec.full_height = full_height;
+    spec.channelnames = channels;
+    return std::make_unique<Buffer>(spec, clear ? OIIO::InitializePixels::Yes : OIIO::InitializePixels::No);
+}
+
+DecodedPicture OiioModule::read(const std::string& name) const
+{
+    const QuietStandardError quiet;
+    const std::unique_ptr<OIIO::ImageInput> input = open_image(name);
+    const OIIO::ImageSpec spec = input->spec();
+    if (spec.deep) throw Error("pictures with deep pixels are not supported");
+    if (spec.depth > 1) throw Error("volumes are not supported");
+
+    DecodedPicture picture;
+    picture.data = data_window_of(spec);
+    picture.full_width = spec.full_width;
+    picture.full_height = spec.full_height;
+    picture.channels = spec.channelnames;
+    picture.channels.resize(static_cast<std::size_t>(std::max(spec.nchannels, 0)));
+    // Not cleared: a broken file may claim any size.
+    picture.buffer =
+        make_buffer(picture.data, picture.full_width, picture.full_height, picture.channels, false);
+    const bool good = input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeFloat, picture.buffer->pixels());
+    const std::string reason = input->geterror();
+    if (!good || !reason.empty()) throw Error(one_line(reason));
+    if (spec.format == OIIO::TypeUInt8) picture.integer_levels = 256;
+    if (spec.format == OIIO::TypeUInt16) picture.integer_levels = 65536;
+    picture.alpha_channel = spec.alpha_channel;
+    picture.metadata = metadata_of(spec);
+    return picture;
+}
+
+std::vector<unsigned char> OiioModule::encode(const PictureFile& picture) const
+{
+    return encode_image(picture.name, spec_of(picture), [&](OIIO::ImageOutput& output) {
+        if (picture.bytes) return output.write_image(OIIO::TypeUInt8, picture.bytes);
+        const auto stride = static_cast<OIIO::stride_t>(sizeof(float)) * picture.floats_per_pixel;
+        return output.write_image(OIIO::TypeFloat, picture.floats, stride);
+    });
+}
+
+} // namespace plumb

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+
+// [1] Haines, Guenther and Akenine-Moeller 2019, "Precision Improvements for Ray/Sphere Intersection",
+//     Ray Tracing Gems, chapter 7.
+
+#include "shapes/intersection.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plumb {
+
+std::optional<double> intersect_sphere(const Ray& ray, const Vec3f& center, float radius)
+{
+    const Vec3d direction(ray.direction);
+    const Vec3d from_center = Vec3d(ray.origin) - Vec3d(center);
+    const double r = radius;
+    const double a = dot(direction, direction);
+    const double b = -dot(from_center, direction);
+
+    // [1], equation 5: the distance of the centre from the ray, without cancellation.
+    const Vec3d nearest = from_center + direction * (b / a);
+    const double discriminant = r * r - dot(nearest, nearest);
+    if (!(discriminant >= 0.0)) return {};
+
+    // [1], equations 10 and 11: no difference of nearly equal numbers.
+    const double distance = length(from_center);
+    const double c = (distance - r) * (distance + r);
+    const double q = b + std::copysign(std::sqrt(a * discriminant), b);
+    const double t0 = std::min(c / q, q / a);
+    const double t1 = std::max(c / q, q / a);
+    const auto in_range = [&ray](double t) { return t > ray.t_min && t < ray.t_max; };
+    if (in_range(t0)) return t0;
+    if (in_range(t1)) return t1;
+    return {};
+}
+
+} // namespace plumb

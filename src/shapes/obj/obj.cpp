@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+
+// Reading OBJ files, in chunks that all threads share: what is in each is counted; then its text is checked and its
+// numbers (obj_scan.cpp) and faces (obj_faces.cpp, tinyobjloader) are read; then all are put together (obj_mesh.cpp).
+// What comes out does not depend on the chunks: errors are those of the first chunk that has one.
+
+#include "base/memory.h"
+#include "base/parallel.h"
+#include "base/regular_file.h"
+#include "plumb/base/error.h"
+#include "plumb/shapes/mesh.h"
+#include "shapes/obj/obj_characters.h"
+#include "shapes/obj/obj_mesh.h"
+
+#include <fmt/format.h>
+
+#include <exception>
+#include <memory>
+#include <new>
+#include <span>
+#include <utility>
+
+namespace plumb {
+
+namespace {
+
+constexpr std::size_t chunk_size = std::size_t{1} << 20;
+// Above it, the number of lines might not fit an index.
+constexpr std::size_t max_size = std::size_t{8} << 30;
+
+struct Text {
+    std::unique_ptr<char[]> bytes;
+    std::size_t size;
+
+    std::string_view view() const { return {bytes.get(), size}; }
+};
+
+[[noreturn]] void fail(const std::filesystem::path& path, const std::string& reason)
+{
+    throw Error(fmt::format("cannot read '{}': {}", path.string(), reason));
+}
+
+// Calls read(i) for all chunks, and throws what the first of those that failed has thrown.
+void read_chunks(std::size_t count, const std::function<void(std::size_t)>& read)
+{
+    std::vector<std::exception_ptr> problems(count);
+    parallel_for(count, 0, [&](std::size_t i) {
+        try {
+            read(i);
+        } catch (...) {
+            problems[i] = std::current_exception();
+        }
+    });
+    for (const std::exception_ptr& problem : problems)
+        if (problem) std::rethrow_exception(problem);
+}
+
+// The whole file, and line ends behind it: one for the last line, one more in case that it ends with a backslash.
+Text read_text(const std::filesystem::path& path)
+{
+    const RegularFile file(path);
+    const std::uintmax_t size = file.size();
+    if (size == 0) file.fail("the file is empty");
+    if (size > max_size) file.fail("files of more than 8 GiB are not supported");
+
+    Text text{std::make_unique_for_overwrite<char[]>(size + 2), size + 2};
+    prefer_large_pages(text.bytes.get(), text.size);
+    read_chunks((size + chunk_size - 1) / chunk_size, [&](std::size_t i) {
+        const std::size_t begin = i * chunk_size;
+        file.read(begin, {text.bytes.get() + begin, std::min(chunk_size, size - begin)});
+    });
+    text.bytes[size] = text.bytes[size + 1] = '\n';
+    return text;
+}
+
+// Whole statements, but for the byte order mark.
+std::vector<std::string_view> cut_into_chunks(std::string_view text)
+{
+    if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+    std::vector<std::string_view> chunks;
+    while (text.size() > chunk_size) {
+        const auto size = static_cast<std::size_t>(next_chunk(text.data() + chunk_size) - text.data());
+        chunks.push_back(text.substr(0, size));
+        text.remove_prefix(size);
+    }
+    if (!text.empty()) chunks.push_back(text);
+    return chunks;
+}
+
+ObjCounts operator+(const ObjCounts& a, const ObjCounts& b)
+{
+    return {a.positions + b.positions, a.uvs + b.uvs, a.normals + b.normals};
+}
+
+MeshData read_mesh(const std::filesystem::path& path)
+{
+    Text text = read_text(path);
+    const ObjFile file{path.string(), text.view()};
+    const std::vector<std::string_view> parts = cut_into_chunks(file.text);
+
+    std::vector<ObjCounts> before(parts.size());
+    parallel_for(parts.size(), 0, [&](std::size_t i) { before[i] = count_obj(parts[i]); });
+    ObjCounts all;
+    for (ObjCounts& count : before) count = std::exchange(all, all + count);
+
+    ObjAttributes found;
+    reserve_large_pages(found.positions, all.positions + 1); // MeshData
+    reserve_large_pages(found.uvs, all.uvs);
+    reserve_large_pages(found.normals, all.normals);
+    found.positions.resize(all.positions);
+    found.uvs.resize(all.uvs);
+    found.normals.resize(all.normals);
+    std::vector<ObjChunk> chunks(parts.size());
+    read_chunks(parts.size(), [&](std::size_t i) { chunks[i] = scan_obj(file, parts[i], before[i], found); });
+    check_obj(file, chunks, all);
+
+    ObjMaterials materials;
+    std::vector<ObjFaces> faces;
+    for (ObjChunk& chunk : chunks) {
+        materials.append(chunk.materials);
+        faces.push_back(std::move(chunk.faces));
+    }
+    text.bytes.reset(); // memory; the names of materials end here, too
+    return assemble_obj_mesh(std::move(found), std::move(faces), materials.count());
+}
+
+} // namespace
+
+MeshData read_obj(const std::filesystem::path& path)
+{
+    try {
+        return read_mesh(path);
+    } catch (const std::bad_alloc&) {
+        fail(path, "not enough memory");
+    } catch (const std::system_error& error) { // no thread to be had
+        fail(path, error.what());
+    } catch (const FileError&) {
+        throw;
+    } catch (const Error& error) {
+        if (std::string_view(error.what()).starts_with("cannot read")) throw;
+        fail(path, error.what());
+    }
+}
+
+} // namespace plumb

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// From what an OBJ file says to a mesh of triangles.
+
+#include "plumb/shapes/mesh.h"
+#include "shapes/obj/obj_scan.h"
+
+namespace plumb {
+
+// faces: of the file's chunks, in order; their indices must be in range. materials: how many the faces name. Throws
+// Error if no triangle has an area.
+MeshData assemble_obj_mesh(ObjAttributes attributes, std::vector<ObjFaces> faces, std::size_t materials);
+
+} // namespace plumb

@@ -1,0 +1,355 @@
+// SPDX-License-Identifier: MIT
+#include "plumb/suite_file/suite.h"
+
+#include "base/named_file.h"
+#include "scene_file/expand.h"
+#include "scene_file/file_order.h"
+#include "scene_file/placement.h"
+#include "scene_file/property_values.h"
+
+#include <algorithm>
+#include <system_error>
+#include <unordered_map>
+
+#include <fmt/format.h>
+
+namespace plumb {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Each picture has a copy of all that holds for it, so that a small file can ask for very much.
+constexpr std::size_t max_entries = 10'000;
+constexpr std::size_t max_definitions = 1000;                     // of one picture
+constexpr std::size_t max_settings_size = std::size_t{256} << 20; // of all pictures, in bytes
+
+// What a <suite> or <group> says of all that is in it.
+struct Inherited {
+    std::string directory; // "hw4/"
+    std::map<std::string, SuiteSetting> settings;
+    std::map<std::string, SuiteSetting> reference_settings;
+    std::map<std::string, std::string> definitions;
+    SuiteSetting reference; // with the suite's directory in front
+};
+
+constexpr std::string_view reference_prefix = "reference-";
+constexpr std::string_view reference_names[] = {"reference", "reference-spp", "reference-seed"};
+
+bool is_pattern(std::string_view text)
+{
+    return text.find_first_of("*?") != text.npos;
+}
+
+std::vector<std::string_view> words_of(std::string_view text)
+{
+    constexpr std::string_view separators = ", \t\r\n";
+    std::vector<std::string_view> words;
+    while (true) {
+        text.remove_prefix(std::min(text.find_first_not_of(separators), text.size()));
+        if (text.empty()) return words;
+        const std::size_t end = std::min(text.find_first_of(separators), text.size());
+        words.push_back(text.substr(0, end));
+        text.remove_prefix(end);
+    }
+}
+
+std::size_t size_of_settings(const SuiteEntry& entry)
+{
+    std::size_t size = 0;
+    for (const auto* const settings : {&entry.settings, &entry.reference_settings})
+        for (const auto& [name, setting] : *settings)
+            size += sizeof setting + setting.value.size() + setting.at.line_text.size();
+    for (const auto& [name, value] : entry.definitions) size += name.size() + value.size();
+    return size;
+}
+
+// A scene, or a pattern of scenes in one directory.
+NamedFile find_scene(const fs::path& directory, const std::string& text)
+{
+    if (!is_pattern(text)) return find_named_file(directory, text);
+    const std::size_t slash = text.find_last_of("/\\");
+    if (slash == text.npos) return {directory / text, {}, {}};
+    return {find_named_file(directory, text.substr(0, slash)).path / text.substr(slash + 1), {}, {}};
+}
+
+// Sorted.
+std::vector<fs::path> matching_files(const fs::path& pattern)
+{
+    std::vector<fs::path> files;
+    std::error_code problem;
+    const fs::path directory = pattern.has_parent_path() ? pattern.parent_path() : fs::path(".");
+    for (fs::directory_iterator entry(directory, problem), end; !problem && entry != end;
+         entry.increment(problem))
+        if (entry->is_regular_file(problem) &&
+            matches_pattern(entry->path().filename().string(), pattern.filename().string()))
+            files.push_back(pattern.parent_path() / entry->path().filename());
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+// A file's name inside a directory that it must not leave.
+bool is_inner_name(const std::string& name)
+{
+    const fs::path path(name);
+    const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20; };
+    return path.has_filename() && !path.is_absolute() && path == path.lexically_normal() &&
+           *path.begin() != ".." && *path.begin() != "." &&
+           std::none_of(name.begin(), name.end(), is_control);
+}
+
+class SuiteBuilder {
+public:
+    SuiteBuilder(std::span<const std::string_view> known_settings, Diagnostics& diagnostics)
+        : settings_(known_settings), diagnostics_(diagnostics)
+    {}
+
+    std::vector<SuiteEntry> build(const Element& root)
+    {
+        read_group(root, {});
+        if (entries_.empty() && !diagnostics_.has_errors())
+            diagnostics_.error(root.place(), R"(the suite is empty; it needs a <render scene="..."/>)");
+        return std::move(entries_);
+    }
+
+private:
+    // Recursion ends: parse_document().
+    void read_group(const Element& group, Inherited inherited)
+    {
+        const bool is_root = group.tag == "suite";
+        read_attributes(group, inherited,
+                        is_root ? std::vector<std::string_view>{} : std::vector<std::string_view>{"name"});
+        if (const Attribute* name = is_root ? nullptr : group.attribute("name"))
+            if (check_name(group, *name)) inherited.directory += name->value + "/";
+        read_definitions(group, inherited, true);
+        for (const Element& child : group.children) {
+            if (child.tag == "group")
+                read_group(child, inherited);
+            else if (child.tag == "render")
+                read_render(child, inherited);
+        }
+    }
+
+    void read_render(const Element& element, Inherited own)
+    {
+        read_attributes(element, own, {"scene", "name"});
+        read_definitions(element, own, false);
+        const Attribute* scene = element.attribute("scene");
+        const Attribute* name = element.attribute("name");
+        if (!scene) {
+            diagnostics_.error(element.place(),
+                               R"(<render> needs an attribute 'scene': <render scene="..." .../>)");
+            return;
+        }
+        if (scene->broken || (name && !check_name(element, *name))) return;
+        if (scene->value.empty()) {
+            diagnostics_.error(element.value_place(*scene), "the name of the scene file is empty");
+            return;
+        }
+        const NamedFile named = find_scene(element.file->directory(), scene->value);
+        std::vector<fs::path> scenes = {named.path};
+        if (is_pattern(scene->value)) {
+            scenes = matching_files(scenes.front());
+            if (scenes.empty())
+                diagnostics_.error(element.value_place(*scene),
+                                   fmt::format("no file matches '{}'", scene->value));
+        }
+        for (const fs::path& file : scenes) {
+            SuiteEntry entry;
+            entry.name = own.directory + (name ? name->value : file.stem().string());
+            // One name for all the files of a pattern makes a directory of them.
+            if (name && is_pattern(scene->value)) entry.name += "/" + file.stem().string();
+            entry.scene = file;
+            entry.scene_at = element.value_place(*scene);
+            entry.scene_way_out = named.way_out;
+            entry.at = element.place();
+            entry.settings = own.settings;
+            entry.definitions = own.definitions;
+            entry.reference_settings = own.reference_settings;
+            add_reference(entry, own.reference);
+            add_counts(std::move(entry));
+        }
+    }
+
+    static void add_reference(SuiteEntry& entry, const SuiteSetting& reference)
+    {
+        if (reference.value.empty()) return;
+        std::string path;
+        for (const char c : reference.value) path += c == '*' ? entry.name : std::string(1, c);
+        entry.reference = fs::path(path).lexically_normal();
+        entry.reference_at = reference.at;
+    }
+
+    // One entry for each sample count.
+    void add_counts(SuiteEntry entry)
+    {
+        const auto spp = entry.settings.find("spp");
+        if (spp == entry.settings.end()) {
+            add(std::move(entry));
+            return;
+        }
+        const std::string counts = spp->second.value;
+        const std::vector<std::string_view> words = words_of(counts);
+        if (words.empty()) diagnostics_.error(spp->second.at, "spp needs a number of samples per pixel");
+        for (const std::string_view count : words) {
+            entry.settings["spp"].value = count;
+            if (!add(entry)) return;
+        }
+    }
+
+    // Whether there is room for more.
+    bool add(SuiteEntry entry)
+    {
+        settings_size_ += size_of_settings(entry);
+        if (entries_.size() >= max_entries || settings_size_ > max_settings_size) {
+            diagnostics_.error(entry.at,
+                               fmt::format("a suite has at most {} pictures, with at most {} MiB of settings",
+                                           max_entries, max_settings_size >> 20));
+            return false;
+        }
+        const std::string title = entry.title();
+        const auto [same, is_new] = numbers_.emplace(title, entries_.size());
+        if (is_new) {
+            entries_.push_back(std::move(entry));
+            return true;
+        }
+        diagnostics_.error(entry.at, fmt::format("two entries write '{}.exr'; give one of them another name: "
+                                                 R"(<render name="..." .../>)",
+                                                 title));
+        diagnostics_.note(entries_[same->second].at, "the other one is here");
+        return true;
+    }
+
+    bool check_name(const Element& element, const Attribute& name)
+    {
+        if (name.broken) return false;
+        if (is_inner_name(name.value)) return true;
+        diagnostics_.error(
+            element.value_place(name),
+            fmt::format("'{}' cannot name a picture; names are those of a file in the output directory, "
+                        "such as box or hw4/box, without an ending",
+                        name.value));
+        return false;
+    }
+
+    // An empty value takes away what was inherited.
+    static void set(std::map<std::string, SuiteSetting>& settings, const std::string& name,
+                    SuiteSetting setting)
+    {
+        if (setting.value.empty())
+            settings.erase(name);
+        else
+            settings[name] = std::move(setting);
+    }
+
+    // own: names that only this tag has.
+    void read_attributes(const Element& element, Inherited& inherited, std::vector<std::string_view> own)
+    {
+        const auto is_in = [](const auto& names, const std::string& name) {
+            return std::find(std::begin(names), std::end(names), name) != std::end(names);
+        };
+        for (const Attribute& attribute : element.attributes) {
+            if (is_in(own, attribute.name)) continue;
+            SuiteSetting setting{attribute.value, element.value_place(attribute)};
+            if (attribute.name == "reference") {
+                if (!setting.value.empty())
+                    setting.value = (element.file->directory() / setting.value).string();
+                inherited.reference = std::move(setting);
+            } else if (is_in(reference_names, attribute.name)) {
+                set(inherited.reference_settings, attribute.name.substr(reference_prefix.size()),
+                    std::move(setting));
+            } else if (is_in(settings_, attribute.name)) {
+                set(inherited.settings, attribute.name, std::move(setting));
+            } else {
+                own.insert(own.end(), std::begin(reference_names), std::end(reference_names));
+                own.insert(own.end(), settings_.begin(), settings_.end());
+                const std::string_view closest = closest_name(attribute.name, own);
+                diagnostics_.error(element.name_place(attribute),
+                                   fmt::format("unknown attribute '{}' for <{}>; {}", attribute.name,
+                                               element.tag,
+                                               closest.empty() ? "'renderer batch --help' lists them"
+                                                               : fmt::format("did you mean '{}'?", closest)));
+            }
+        }
+    }
+
+    void read_definitions(const Element& element, Inherited& inherited, bool is_group)
+    {
+        for (const Element& child : element.children) {
+            if (child.tag == "define") {
+                for (const Element& grandchild : child.children)
+                    diagnostics_.error(grandchild.place(), rejection(child, grandchild));
+                if (inherited.definitions.size() >= max_definitions)
+                    diagnostics_.error(child.place(),
+                                       fmt::format("a picture has at most {} definitions", max_definitions));
+                else if (check_attributes(child, {"name", "value"}, {}, diagnostics_))
+                    inherited.definitions[child.value("name")] = child.value("value");
+            } else if (!is_group || (child.tag != "render" && child.tag != "group")) {
+                diagnostics_.error(child.place(), rejection(element, child));
+            }
+        }
+    }
+
+    std::span<const std::string_view> settings_;
+    Diagnostics& diagnostics_;
+    std::vector<SuiteEntry> entries_;
+    std::unordered_map<std::string, std::size_t> numbers_; // of entries, by their titles
+    std::size_t settings_size_ = 0;
+};
+
+bool check_root(const Element& root, Diagnostics& diagnostics)
+{
+    if (root.tag == "suite") return true;
+    diagnostics.error(
+        root.place(),
+        root.tag == "scene"  ? std::string("a <scene> file is not a suite; 'renderer FILE' renders it")
+        : root.tag == "test" ? std::string("a <test> file is not a suite; 'renderer test FILE' runs it")
+                             : fmt::format("the root of a suite must be <suite>, not <{}>", root.tag));
+    return false;
+}
+
+} // namespace
+
+std::string SuiteEntry::title() const
+{
+    const auto spp = settings.find("spp");
+    return spp == settings.end() ? name : name + "_" + spp->second.value;
+}
+
+bool matches_pattern(std::string_view text, std::string_view pattern)
+{
+    // After a mismatch, the last * takes one character more.
+    std::size_t t = 0, p = 0, star = pattern.npos, star_text = 0;
+    while (t < text.size()) {
+        if (p < pattern.size() && pattern[p] == '*') {
+            star = p++;
+            star_text = t;
+        } else if (p < pattern.size() && (pattern[p] == '?' || pattern[p] == text[t])) {
+            ++p;
+            ++t;
+        } else if (star != pattern.npos) {
+            p = star + 1;
+            t = ++star_text;
+        } else {
+            return false;
+        }
+    }
+    return pattern.find_first_not_of('*', p) == pattern.npos;
+}
+
+Suite load_suite(const fs::path& path, const std::map<std::string, std::string>& definitions,
+                 std::span<const std::string_view> known_settings)
+{
+    Diagnostics diagnostics;
+    auto document = parse_document(path, read_text(path), diagnostics);
+    if (!document || !check_root(*document, diagnostics)) throw SceneError(diagnostics.all());
+    const Expansion expansion =
+        expand(*std::move(document), {definitions.begin(), definitions.end()}, diagnostics);
+    std::vector<SuiteEntry> entries = SuiteBuilder(known_settings, diagnostics).build(expansion.root);
+    if (diagnostics.has_errors()) throw SceneError(in_file_order(diagnostics.all(), expansion.files));
+    Suite suite{path, {}, std::move(entries)};
+    for (const auto& file : expansion.files) suite.files.push_back(file->path());
+    return suite;
+}
+
+} // namespace plumb
