@@ -23,7 +23,7 @@ HEADERS = {
             "sampling statistics version",
     "interfaces": "bsdf camera emitter filter integrator params sampler shape surface texture",
     "scene": "instruction_set light_tree scene tracer",
-    "render": "evidence film render sample_set state_file stop_rules",
+    "render": "aovs channel_set evidence film render sample_set state_file stop_rules",
     "check": "check",
     "scene_file": "load scene_file suite test_file",
     "course_tests": "course_test",
