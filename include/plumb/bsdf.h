@@ -66,6 +66,9 @@ public:
     virtual BsdfValue evaluate(const SurfacePoint& at, const Vec3f& wi, const Vec3f& wo) const = 0;
     virtual std::optional<BsdfSample> sample(const SurfacePoint& at, const Vec3f& wi, float u_lobe,
                                              const Vec2f& u) const = 0;
+    // What fraction of light from wi's direction leaves again, for people and denoisers: the mean weight of samples of a fixed
+    // pattern, without the scale of refracted radiance, unless a BSDF knows it. Deterministic.
+    virtual Color albedo(const SurfacePoint& at, const Vec3f& wi) const;
 };
 
 } // namespace plumb

@@ -34,8 +34,10 @@ std::string bias_of_depth(int max_depth)
                        max_depth == 1 ? "" : "s");
 }
 
-void log_scatter(Tracer& tracer, const PathState& path, const BsdfSample& next)
+void note_scatter(Tracer& tracer, const PathState& path, const BsdfSample& next)
 {
+    if (FirstSurfaces* const first = tracer.first_surfaces()) first->scatter(next.weight * sqr(next.eta));
+    if (!tracer.logging()) return;
     tracer.log(PathEvent::Kind::scatter,
                fmt::format("{}: weight {}, {} {:.6g}, eta {:.6g}; throughput {}", name_of(next.lobe),
                            text(next.weight), next.is_delta() ? "probability" : "pdf", next.pdf, next.eta,

@@ -42,8 +42,8 @@ struct PathState {
 // Integrator::bias() of a loop that ends paths at max_depth; negative: none.
 std::string bias_of_depth(int max_depth);
 
-// For `renderer replay`.
-void log_scatter(Tracer& tracer, const PathState& path, const BsdfSample& next);
+// For the first surfaces, and for `renderer replay`.
+void note_scatter(Tracer& tracer, const PathState& path, const BsdfSample& next);
 void log_roulette(Tracer& tracer, float survival, bool survived);
 
 // What the path's last ray sees, if the technique counts it.
@@ -106,7 +106,7 @@ Color trace_path(const Technique& technique, Tracer& tracer, Sampler& sampler, R
         result += scattered(technique, tracer, sampler, path, vertex);
         if (!next) return end("the surface absorbs the path"), result;
         path.extend(vertex, *next);
-        if (tracer.logging()) log_scatter(tracer, path, *next);
+        if (tracer.watched()) note_scatter(tracer, path, *next);
         if (path.throughput.is_black()) return end("nothing is left of the path's throughput"), result;
 
         const bool last = bounces + 1 == technique.max_depth();

@@ -3,6 +3,7 @@
 #include "plumb/render.h"
 
 #include "core/parallel.h"
+#include "plumb/aovs.h"
 #include "plumb/error.h"
 #include "render/tiles.h"
 #include "scene/float_mode.h"
@@ -49,8 +50,14 @@ SampleTaken take_sample(const RenderJob& job, Tracer& tracer, Sampler& sampler, 
 
 // What one thread needs and gathers.
 struct Worker {
-    Worker(const RenderJob& job, std::uint64_t total) : tracer(job.scene), sampler(job.sampler->clone(total))
+    Worker(const RenderJob& job, std::uint64_t total, bool has_layers)
+        : tracer(job.scene, nullptr, has_layers ? &first : nullptr), sampler(job.sampler->clone(total))
     {}
+    Worker(const Worker&) = delete; // the tracer points to it
+    Worker& operator=(const Worker&) = delete;
+
+    FirstSurfaces first; // of the sample being taken, if there are layers
+    AovMeter::Values values;
     Tracer tracer;
     std::unique_ptr<Sampler> sampler;
     LeftOut left_out;
@@ -111,7 +118,7 @@ void check_total(const RenderJob& job, std::uint64_t end, std::uint64_t total)
 RenderState nothing_taken(const RenderJob& job, const RenderOptions& options)
 {
     const Vec2i size = job.camera->resolution();
-    return {Film(render_window(job, options), size.x, size.y), {}, {}, {}};
+    return {Film(render_window(job, options), size.x, size.y, layers_of(options.aovs)), {}, {}, {}};
 }
 
 } // namespace
@@ -174,7 +181,11 @@ Rendering::Rendering(const RenderJob& job, const RenderOptions& options)
 
 Rendering::Rendering(const RenderJob& job, const RenderOptions& options, RenderState state)
     : job_(job), options_(options), state_(std::move(state))
-{}
+{
+    if (const ChannelSet wanted = layers_of(options.aovs); state_.film.layers() != wanted)
+        throw Error(fmt::format("what is rendered has the layers {}, and those asked for are {}",
+                                layer_names(state_.film.layers()), layer_names(wanted)));
+}
 
 bool Rendering::take(const SampleSet& wanted, const ProgressReport& progress, const Pause& pause)
 {
@@ -188,7 +199,9 @@ bool Rendering::take(const SampleSet& wanted, const ProgressReport& progress, co
     const std::uint64_t total = render_samples(job_, options_);
     check_total(job_, end, total);
     Reporter reporter(progress, (wanted & state_.taken).count(), wanted.count());
-    oneapi::tbb::enumerable_thread_specific<Worker> workers([&] { return Worker(job_, total); });
+    oneapi::tbb::enumerable_thread_specific<Worker> workers(
+        [&] { return Worker(job_, total, !state_.film.layers().empty()); });
+    const AovMeter meter(options_.aovs, job_.scene, *job_.camera);
     std::atomic<bool> paused = false;
 
     // How much of the block was done: its first rows.
@@ -206,9 +219,13 @@ bool Rendering::take(const SampleSet& wanted, const ProgressReport& progress, co
             }
             for (int x = tile.x; x < tile.x + tile.width; ++x) {
                 for (std::uint64_t index = block.first; index < block.last; ++index) {
+                    if (!meter.empty()) worker.first = {};
                     const SampleTaken sample =
                         take_sample(job_, worker.tracer, *worker.sampler, options_.seed, {x, y}, index);
-                    const Verdict verdict = state_.film.add({x, y}, sample.radiance, sample.weight);
+                    const Verdict verdict =
+                        meter.empty() ? state_.film.add({x, y}, sample.radiance, sample.weight)
+                                      : state_.film.add({x, y}, sample.radiance, sample.weight,
+                                                        meter.measure(worker.first, worker.values), index);
                     if (verdict != Verdict::accepted)
                         worker.left_out.add({{x, y}, index, sample.radiance, verdict});
                 }
