@@ -48,16 +48,18 @@ public:
     BsdfValue evaluate(const SurfacePoint& at, const Vec3f& wi, const Vec3f& wo) const override
     {
         const Frame bent = bent_frame(at, wi);
-        const Vec3f bent_wo = bent.to_local(wo);
-        if (!same_hemisphere(wo, bent_wo)) return {};
-        return bsdf_->evaluate(at, bent.to_local(wi), bent_wo);
+        const Vec3f bent_wi = bent.to_local(wi), bent_wo = bent.to_local(wo);
+        if (!same_hemisphere(wi, bent_wi) || !same_hemisphere(wo, bent_wo)) return {};
+        return bsdf_->evaluate(at, bent_wi, bent_wo);
     }
 
     std::optional<BsdfSample> sample(const SurfacePoint& at, const Vec3f& wi, float u_lobe,
                                      const Vec2f& u) const override
     {
         const Frame bent = bent_frame(at, wi);
-        auto sampled = bsdf_->sample(at, bent.to_local(wi), u_lobe, u);
+        const Vec3f bent_wi = bent.to_local(wi);
+        if (!same_hemisphere(wi, bent_wi)) return std::nullopt; // in the surface
+        auto sampled = bsdf_->sample(at, bent_wi, u_lobe, u);
         if (!sampled) return sampled;
         const Vec3f wo = normalize(bent.to_world(sampled->wo));
         if (!same_hemisphere(wo, sampled->wo)) return std::nullopt;
@@ -66,7 +68,7 @@ public:
     }
 
 private:
-    // In the frame of the surface. wi is on the same side of its normal as of the surface's.
+    // In the frame of the surface. wi is on the same side of its normal as of the surface's, unless it lies in it.
     Frame bent_frame(const SurfacePoint& at, const Vec3f& wi) const
     {
         constexpr float lowest = 1e-3f;

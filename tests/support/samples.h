@@ -34,7 +34,7 @@ public:
     {
         Diagnostics diagnostics;
         const Dialect dialect;
-        LoadContext context{diagnostics, dialect};
+        LoadContext context{diagnostics, dialect, false, {}};
         SharedObjects shared(element, context);
         ObjectReader reader(element, context, {"emitter", "rfilter"});
         reader.params().set_parent_shape(parent);

@@ -67,7 +67,7 @@ std::string file_with(const std::string& parent, const std::string& inner)
         {"rotate", "transform"}, {"lookat", "transform"}, {"matrix", "transform"},    {"boolean", "mesh"},
         {"integer", "mesh"},     {"float", "mesh"},       {"string", "mesh"},         {"point", "mesh"},
         {"vector", "mesh"},      {"color", "mesh"},       {"include", "scene"},       {"default", "scene"},
-        {"define", "suite"},     {"render", "suite"},     {"group", "suite"},
+        {"define", "suite"},     {"render", "suite"},     {"group", "suite"},         {"ref", "mesh"},
     };
     const auto found = around.find(parent);
     const std::string text = element(parent, inner);
