@@ -281,6 +281,7 @@ void Params::reject_unused() const
         if (!property.asked) reject("parameter", name, property.name_at);
     for (const TextureChild& child : textures_)
         if (!child.asked) reject("texture", child.name, child.at);
+    reject_unused_bsdfs();
 }
 
 } // namespace plumb

@@ -25,7 +25,7 @@ bool lights_near(const Scene& scene, const Vec3f& p, const Vec3f& wi, float size
 {
     const auto hit = scene.intersect({p + wi * size, -wi});
     if (!hit) return false;
-    return hit->bsdf->lobes().has_any(transmission_lobes) || dot(hit->geometric_normal, wi) > 0.f;
+    return hit->bsdf->has_back() || dot(hit->geometric_normal, wi) > 0.f;
 }
 
 // Looks through points in the boxes around the objects, or around some of very many.

@@ -12,7 +12,7 @@ constexpr ElementManual manuals[] = {
     {"scene", R"(The root of a scene file.
 
 Holds one <camera>, one <integrator>, at most one <sampler>, any number of <mesh> or <shape> and of <emitter>, in any
-order, and <include> and <default>. The attribute `dialect` says which course's readings apply: plumb, epfl, eth,
+order, <bsdf> and <texture> that a <ref> names, and <include> and <default>. The attribute `dialect` says which course's readings apply: plumb, epfl, eth,
 zaragoza or mcgill; without it they are decided from evidence in the file.
 
         <scene dialect="plumb">
@@ -79,12 +79,23 @@ It stands in <scene>, and may hold one <bsdf> (default: diffuse, albedo 0.5) and
 )"},
     {"bsdf", R"(What a surface is made of.
 
-It stands in the <mesh> or <shape> whose surface it is, and may hold a <texture> for each parameter that takes one.
+It stands in the <mesh> or <shape> whose surface it is, in another <bsdf> that changes it, or, with an id for <ref>, in
+<scene>. It may hold a <texture> for each parameter that takes one.
 )"},
     {"texture", R"(A value that differs from point to point of a surface, over its uv coordinates.
 
 It stands in a <bsdf> or <emitter>, with the parameter that it replaces as its name: <texture name="albedo" ...>. Where
-only one parameter can be a texture, the name may be left out.
+only one parameter can be a texture, the name may be left out. With an id for <ref>, it may stand in <scene>.
+)"},
+    {"ref", R"(Puts a <bsdf> or a <texture> that stands elsewhere in its place.
+
+    id      of a <bsdf> or <texture> anywhere in the scene, before or after
+    name    of a texture: the parameter that it replaces, as in <texture>
+
+What is named is built once, however many use it. It stands in <mesh>, <shape>, <bsdf> or <emitter>. For example:
+
+        <bsdf type="roughconductor" id="gold"> <color name="R0" value="1 0.71 0.29"/> </bsdf>
+        <shape type="sphere"> <ref id="gold"/> </shape>
 )"},
     {"emitter", R"(What gives light.
 

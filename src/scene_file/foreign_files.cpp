@@ -52,8 +52,7 @@ bool is_in(const std::string_view (&words)[count], std::string_view word)
 // What is in Mitsuba's scenes and never in ours.
 bool is_of_mitsuba(const Element& element)
 {
-    return element.tag == "sensor" || element.tag == "film" ||
-           (element.tag == "bsdf" && element.value("type") == "twosided");
+    return element.tag == "sensor" || element.tag == "film";
 }
 
 // Recursion ends: elements are nested at most max_nesting levels.

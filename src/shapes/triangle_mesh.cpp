@@ -77,6 +77,23 @@ public:
         return {position(edges, b), clearance, geometric_normal, primitive, shading, 0, uv(primitive, b)};
     }
 
+    Tangents tangents(const SurfacePoint& at) const override
+    {
+        const TriangleEdges e = corners(at.primitive).edges();
+        const Tangents edges{Vec3f(e.edge1), Vec3f(e.edge2)}; // by the barycentric coordinates
+        if (mesh_.uvs.empty()) return edges;
+        const MeshData::Triangle& t = mesh_.triangles[at.primitive];
+        const auto uv_edge = [&](std::size_t corner) {
+            const Vec2f &from = mesh_.uvs[t[0]], &to = mesh_.uvs[t[corner]];
+            return Vec3d(to.x - static_cast<double>(from.x), to.y - static_cast<double>(from.y), 0.0);
+        };
+        const Vec3d a = uv_edge(1), b = uv_edge(2);
+        const double scale = 1.0 / (a.x * b.y - a.y * b.x);
+        const Tangents by_uv{Vec3f((e.edge1 * b.y - e.edge2 * a.y) * scale),
+                             Vec3f((e.edge2 * a.x - e.edge1 * b.x) * scale)};
+        return is_finite(by_uv.dp_du) && is_finite(by_uv.dp_dv) ? by_uv : edges;
+    }
+
     void prepare_sampling() override
     {
         std::vector<double> areas;

@@ -30,12 +30,13 @@ void add_scene_words(Words& words)
     }
     for (const char* tag :
          {"integer", "float", "boolean", "string", "point", "vector", "color", "transform", "default",
-          "include", "scene", "test", "suite", "render", "group", "define", "reference", "mesh"}) {
+          "include", "scene", "test", "suite", "render", "group", "define", "reference", "mesh", "ref"}) {
         words.insert(fmt::format("<{} ", tag));
         words.insert(fmt::format("</{}>", tag));
     }
     for (const char* word : {"value=\"",
                              "name=\"",
+                             "id=\"a\"",
                              "type=\"",
                              "dialect=\"plumb\"",
                              "dialect=\"eth\"",

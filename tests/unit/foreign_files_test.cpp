@@ -43,9 +43,6 @@ TEST_CASE("a scene of Mitsuba gets one error", "[unit][foreign_files]")
     CHECK(complaint("<scene version=\"3.0.0\">" + inner) ==
           "a.xml:1:8: error: this is a scene of Mitsuba 3.0.0" + of_mitsuba);
     CHECK(complaint("<scene>" + inner) == "a.xml:2:3: error: this is a scene of Mitsuba" + of_mitsuba);
-    CHECK(complaint("<scene><shape type='sphere'><bsdf type='twosided'><bsdf "
-                    "type='diffuse'/></bsdf></shape></scene>") ==
-          "a.xml:1:29: error: this is a scene of Mitsuba" + of_mitsuba);
     // One of ours with a slip is no scene of Mitsuba.
     CHECK_THAT(complaint("<scene dialect='plumb'>" + inner),
                ContainsSubstring("error: <sensor> is <camera> here\n"));
