@@ -38,8 +38,10 @@ void write_reports(const Options& options, const Comparison& comparison, const I
 
 std::string_view compare_manual()
 {
-    return "Could A and B, the reference, be pictures of the same thing, but for their noise?\n"
-           "Exit code: 0 passes, 1 cannot be compared, 2 wrong usage, 3 differs, 4 undecided.\n";
+    return R"(Tests whether A and the reference B are equal except for their noise.
+Exit code: 0 passes, 1 cannot be compared, 2 wrong usage, 3 differs,
+4 undecided.
+)";
 }
 
 int compare_command(const Options& options)
@@ -48,7 +50,7 @@ int compare_command(const Options& options)
     if (!options.compare.difference.empty()) images.push_back(options.compare.difference);
     check_outputs(images, options.json);
     keep_inputs(KeptFiles({options.subject, options.subjects[1]}), images, options.json,
-                "it is one of the pictures to compare");
+                "it is one of the images to compare");
     const Image a = read_image(options.subject, true);
     const Image b = read_image(options.subjects[1], true);
 

@@ -150,9 +150,9 @@ void check_comparable(const Picture& a, const Picture& b)
 {
     if (size_text(a) != size_text(b))
         throw Error(
-            fmt::format("the pictures have different sizes: A is {}, B is {}", size_text(a), size_text(b)));
+            fmt::format("the images have different sizes: A is {}, B is {}", size_text(a), size_text(b)));
     if (a.channels != b.channels)
-        throw Error(fmt::format("the pictures have different channels: A has {}, B has {}",
+        throw Error(fmt::format("the images have different channels: A has {}, B has {}",
                                 fmt::join(a.channels, ", "), fmt::join(b.channels, ", ")));
 }
 

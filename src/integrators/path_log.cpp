@@ -29,8 +29,8 @@ std::string text(const Color& c)
 std::string bias_of_depth(int max_depth)
 {
     if (max_depth < 0) return "";
-    if (max_depth == 0) return "all but emitted light is left out";
-    return fmt::format("light of more than {} surface bounce{} is left out", max_depth,
+    if (max_depth == 0) return "all light except emission is omitted";
+    return fmt::format("light of more than {} surface bounce{} is omitted", max_depth,
                        max_depth == 1 ? "" : "s");
 }
 

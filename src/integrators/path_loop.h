@@ -107,10 +107,10 @@ Color trace_path(const Technique& technique, Tracer& tracer, Sampler& sampler, R
         if (!next) return end("the surface absorbs the path"), result;
         path.extend(vertex, *next);
         if (tracer.watched()) note_scatter(tracer, path, *next);
-        if (path.throughput.is_black()) return end("nothing is left of the path's throughput"), result;
+        if (path.throughput.is_black()) return end("the throughput of the path is zero"), result;
 
         const bool last = bounces + 1 == technique.max_depth();
-        if (last && !technique.counts_emission(path)) return end("nothing more could count"), result;
+        if (last && !technique.counts_emission(path)) return end("nothing else can contribute"), result;
         if (!survives(technique, tracer, sampler, path, bounces + 1)) return end("roulette"), result;
         ray = hit->spawn_ray(vertex.to_world(*next));
     }

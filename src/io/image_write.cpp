@@ -116,14 +116,14 @@ void check_image_path(const std::filesystem::path& path)
 {
     if (!path.has_filename()) fail(path, "no file name");
     std::error_code error;
-    if (std::filesystem::is_directory(path, error)) fail(path, "a folder of that name exists");
+    if (std::filesystem::is_directory(path, error)) fail(path, "a directory of that name exists");
     format_of(path);
     const std::filesystem::path end = end_of_links(path);
     const std::filesystem::path folder = end.has_parent_path() ? end.parent_path() : ".";
     if (!std::filesystem::exists(folder, error))
-        fail(path, fmt::format("the folder '{}' does not exist", folder.string()));
+        fail(path, fmt::format("the directory '{}' does not exist", folder.string()));
     if (!std::filesystem::is_directory(folder, error))
-        fail(path, fmt::format("'{}' is no folder", folder.string()));
+        fail(path, fmt::format("'{}' is not a directory", folder.string()));
     if (std::filesystem::exists(path, error) && access(path.c_str(), W_OK) != 0)
         fail(path, std::strerror(errno));
     const TemporaryFile probe(path); // created, and removed

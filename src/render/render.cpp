@@ -109,10 +109,9 @@ std::vector<SampleBlock> cut_into_work(const SampleSet& set, std::uint64_t first
 void check_total(const RenderJob& job, std::uint64_t end, std::uint64_t total)
 {
     if (job.sampler->depends_on_total() && end > total)
-        throw Error(
-            fmt::format("sample {} is asked for, but the sampler spreads a total of {} samples over a "
-                        "pixel and has no others; give the total with --spp",
-                        end - 1, total));
+        throw Error(fmt::format("sample {} was requested, but the sampler has a total of {} samples per "
+                                "pixel; give the total with --spp",
+                                end - 1, total));
 }
 
 RenderState nothing_taken(const RenderJob& job, const RenderOptions& options)
@@ -156,7 +155,7 @@ PixelRect render_window(const RenderJob& job, const RenderOptions& options)
     const PixelRect& c = *options.crop;
     if (c.width < 1 || c.height < 1 || c.x < 0 || c.y < 0 || c.x > size.x - c.width ||
         c.y > size.y - c.height)
-        throw Error(fmt::format("the crop {},{},{},{} is not inside the picture of {}x{} pixels", c.x, c.y,
+        throw Error(fmt::format("the crop {},{},{},{} is not inside the image of {}x{} pixels", c.x, c.y,
                                 c.width, c.height, size.x, size.y));
     return c;
 }
@@ -262,7 +261,7 @@ ReplayedSample replay(const RenderJob& job, std::uint64_t seed, Vec2i pixel, std
 {
     const Vec2i size = job.camera->resolution();
     if (pixel.x < 0 || pixel.y < 0 || pixel.x >= size.x || pixel.y >= size.y)
-        throw Error(fmt::format("pixel {},{} is not inside the picture of {}x{} pixels", pixel.x, pixel.y,
+        throw Error(fmt::format("pixel {},{} is not inside the image of {}x{} pixels", pixel.x, pixel.y,
                                 size.x, size.y));
     const std::uint64_t total = job.sampler->samples_per_pixel();
     check_total(job, sample_index + 1, total);

@@ -186,7 +186,7 @@ std::string left_out_text(const LeftOut& left_out)
 
 [[noreturn]] void reject(std::string_view name)
 {
-    throw Error(fmt::format("{} in its header makes no sense", name));
+    throw Error(fmt::format("{} in its header is invalid", name));
 }
 
 // The text must consist of at least one number and at most so many, with one space between two.
@@ -278,15 +278,15 @@ StateFile empty_state(const WordImage& image)
 {
     const Metadata header = state_header(image.metadata);
     const Entries entries(header);
-    if (!entries.has("plumb:state")) throw Error("it is no checkpoint and no part of a picture");
+    if (!entries.has("plumb:state")) throw Error("it is not a checkpoint or a partial render");
     const int version = entries.get<int>("plumb:state");
     if (version != format_version && version != version_without_layers)
-        throw Error(
-            fmt::format("its format has the version {}, and this program knows {}", version, format_version));
+        throw Error(fmt::format("its format has version {}, but this program reads version {}", version,
+                                format_version));
     const PixelRect& data = image.data;
     if (data.x < 0 || data.y < 0 || data.width < 1 || data.height < 1 ||
         data.width > image.full_width - data.x || data.height > image.full_height - data.y)
-        throw Error("its pixels are not those of a picture");
+        throw Error("its pixels are not those of an image");
     const std::string& text = entries.get<std::string>("plumb:stateSamples");
     const auto samples = text == no_samples ? SampleSet() : SampleSet::from_text(text);
     if (!samples || !(*samples - SampleSet(SampleBlock{data, 0, film_max_samples})).empty())
@@ -391,9 +391,9 @@ StateFile read_state(const std::filesystem::path& path)
                 possible = set_row(file->state.film, y, row, used, samples) && possible;
             });
         if (hash->hex() != expected_hash) throw Error("it is damaged: its hash is wrong");
-        if (!possible) throw Error("it has sums that its samples cannot have");
+        if (!possible) throw Error("its sums do not fit its samples");
     } catch (const Error& error) {
-        throw Error(fmt::format("cannot go on from '{}': {}", path.string(), error.what()));
+        throw Error(fmt::format("cannot resume from '{}': {}", path.string(), error.what()));
     }
     return std::move(*file);
 }

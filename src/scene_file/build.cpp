@@ -166,11 +166,10 @@ private:
                 if (child.value("name") == "width" && child.attribute("value"))
                     at = child.value_place(*child.attribute("value"));
         }
-        diagnostics_.error(
-            at,
-            fmt::format("a picture of {} x {} pixels needs {:.1f} GB of memory, and {:.1f} GB are "
-                        "available; lower width and height",
-                        resolution.x, resolution.y, needed * 1e-9, static_cast<double>(*available) * 1e-9));
+        diagnostics_.error(at, fmt::format("an image of {} x {} pixels needs {:.1f} GB of memory, but only "
+                                           "{:.1f} GB are available; lower width and height",
+                                           resolution.x, resolution.y, needed * 1e-9,
+                                           static_cast<double>(*available) * 1e-9));
     }
 
     // --- Integrator and sampler ---

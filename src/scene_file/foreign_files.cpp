@@ -79,7 +79,7 @@ std::optional<std::string> foreign_content(std::string_view text)
     for (const Beginning& picture : pictures)
         if (text.starts_with(picture.bytes))
             return fmt::format(
-                "this is a picture ({}), not a scene; 'renderer info' prints what is in its header",
+                "this is an image ({}), not a scene; 'renderer info' prints what is in its header",
                 picture.kind);
     for (const Beginning& other : others)
         if (text.starts_with(other.bytes)) return fmt::format("this is {}", other.kind);

@@ -23,7 +23,7 @@ constexpr ForeignName names[] = {
     {"tag", "phase", "", vacuum},
     {"tag", "volume", "", vacuum},
     {"tag", "denoiser", "",
-     "Plumb's pictures are unbiased estimates; denoise the written .exr with another program"},
+     "Plumb's images are unbiased estimates; denoise the written .exr with another program"},
     {"tag", "sensor", "camera", ""},
     {"tag", "rgb", "color", ""},
     {"tag", "srgb", "", "write it as a linear <color>"},

@@ -199,11 +199,11 @@ void ObjectReader::finish()
         std::string used(ignored->instead_default);
         for (const Element& child : element_.children)
             if (child.value("name") == ignored->instead) used = child.value("value");
-        params_.ignore(
-            name, ignored->instead.empty()
-                      ? std::string()
-                      : fmt::format("'{}' is not read, neither here nor in the course's own code: {} is {}",
-                                    name, ignored->instead, used));
+        params_.ignore(name,
+                       ignored->instead.empty()
+                           ? std::string()
+                           : fmt::format("'{}' is read neither here nor in the course's own code: {} is {}",
+                                         name, ignored->instead, used));
     }
     params_.reject_unused();
 }

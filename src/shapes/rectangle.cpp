@@ -37,7 +37,7 @@ public:
         const Vec3f given_normal = params.vector("normal", Vec3f(0.f, 0.f, 1.f));
         const Transform to_world = params.transform("toWorld");
         if (!(max_component(abs(given_normal)) > 0.f)) {
-            params.fail("normal", "must not be 0: it says where the front side is");
+            params.fail("normal", "must not be 0: it gives the front side");
             return;
         }
 

@@ -39,7 +39,7 @@ public:
         if (!to_world.is_identity()) apply(to_world);
         for (const Vec3f& p : mesh_.positions)
             if (!is_finite(p)) {
-                params.fail("toWorld", "moves vertices further away than a float can tell");
+                params.fail("toWorld", "moves vertices farther than a 32-bit float can represent");
                 return;
             }
 
