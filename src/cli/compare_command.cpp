@@ -27,8 +27,9 @@ bool is_low_dynamic_range(const std::filesystem::path& path)
 void write_reports(const Options& options, const Comparison& comparison, const Image& a, const Image& b)
 {
     if (!options.compare.difference.empty())
-        write_image(options.compare.difference,
-                    options.compare.difference_is_flip ? flip_image(comparison) : difference_image(a, b));
+        write_image(options.compare.difference, options.compare.difference_is_flip
+                                                    ? flip_image(comparison)
+                                                    : difference_image(a, b, options.compare.how.layer));
     if (!options.json.empty())
         write_json(options.json,
                    comparison_json(comparison, options.compare.how, options.subject, options.subjects[1]));
@@ -55,7 +56,9 @@ int compare_command(const Options& options)
     const Image b = read_image(options.subjects[1], true);
 
     CompareOptions how = options.compare.how;
-    if (options.compare.choose_flip)
+    if (options.compare.choose_flip && !how.layer.empty())
+        how.flip = FlipMode::none; // numbers, no colours
+    else if (options.compare.choose_flip)
         how.flip = is_low_dynamic_range(options.subject) && is_low_dynamic_range(options.subjects[1])
                        ? FlipMode::ldr
                        : FlipMode::hdr;

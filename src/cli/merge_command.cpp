@@ -54,6 +54,10 @@ void check_part(const Merged& merged, const StateFile& part, const std::string& 
         refuse(fmt::format("one has the pixels {}, the other {}",
                            rectangle_text(merged.file.state.film.window()),
                            rectangle_text(part.state.film.window())));
+    if (part.state.film.layers() != merged.file.state.film.layers())
+        refuse(fmt::format("one has the layers {}, the other {}",
+                           layer_names(merged.file.state.film.layers()),
+                           layer_names(part.state.film.layers())));
     const std::uint64_t here = wanted_samples(merged.file, first);
     if (const std::uint64_t there = wanted_samples(part, name); there != here)
         refuse(fmt::format("one has {} samples per pixel, the other {}", here, there));

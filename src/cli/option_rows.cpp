@@ -3,6 +3,7 @@
 
 #include "cli/values.h"
 #include "cli/verbs.h"
+#include "plumb/aovs.h"
 #include "plumb/instruction_set.h"
 
 #include <algorithm>
@@ -60,6 +61,15 @@ void add_limits(Options& options, Name name, Text text)
         for (const Threshold& other : options.compare.how.thresholds)
             if (other.metric == metric) throw UsageError(fmt::format("{} {} is given twice", name, metric));
         options.compare.how.thresholds.push_back({metric, limit});
+    }
+}
+
+void check_aovs(Name name, const std::vector<std::string>& aovs)
+{
+    try {
+        layers_of(aovs);
+    } catch (const Error& problem) {
+        throw UsageError(fmt::format("{}: {}", name, problem.what()));
     }
 }
 
@@ -151,6 +161,12 @@ const OptionTable rows = {
      "render this window only; same bits as in the full\n"
      "image",
      [](Options& o, Name n, Text t) { o.render.crop = parse_rectangle(n, t); }},
+    {Topic::picture, Effect::picture, render_only, "--aov", "NAME,...",
+     "add layers to .exr files: albedo, normal, depth and\nothers (docs/aovs.md)",
+     [](Options& o, Name n, Text t) {
+         o.render.aovs = parse_list(n, t);
+         check_aovs(n, o.render.aovs);
+     }},
     {Topic::picture, Effect::samples, both | check_only, "--integrator", "TYPE",
      "use this integrator instead of the scene's, with\n"
      "default parameters",
@@ -233,6 +249,12 @@ const OptionTable rows = {
      "probability of finding a difference where there is none\n"
      "(default 0.01)",
      [](Options& o, Name n, Text t) { o.compare.how.significance = parse_double(n, t, 1e-9, 0.5); }},
+    {Topic::verdict, Effect::run, compare_only, "--layer", "NAME",
+     "compare the channels NAME.* instead of the colours",
+     [](Options& o, Name n, Text t) {
+         if (t.empty()) throw UsageError(fmt::format("{} needs a name", n));
+         o.compare.how.layer = t;
+     }},
     {Topic::verdict, Effect::run, compare_only, "--exact", "A|B", "this image has no noise",
      [](Options& o, Name n, Text t) {
          o.compare.how.exact = parse_word(n, t, {"A", "B"}) == "A" ? Side::a : Side::b;

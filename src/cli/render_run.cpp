@@ -8,6 +8,7 @@
 #include "cli/progress.h"
 #include "cli/text.h"
 
+#include "plumb/aovs.h"
 #include "plumb/image.h"
 #include "plumb/stop_rules.h"
 
@@ -84,6 +85,7 @@ private:
     RenderState start() const
     {
         const std::string& name = options_.checkpoint.file;
+        const ChannelSet layers = layers_of(options_.render.aovs);
         std::optional<StateFile> file;
         if (options_.checkpoint.resume) {
             const Metadata header = with_program(header_);
@@ -94,7 +96,11 @@ private:
             if (options_.checkpoint.resume && !options_.quiet)
                 print_log(fmt::format("'{}' does not exist yet; starting with the first sample", name));
             return {Film(window_, resolution_.x, resolution_.y), {}, {}, {}};
+
         }
+        if (file->state.film.layers() != layers)
+            throw Error(fmt::format("cannot resume from '{}': it has the layers {}, and --aov asks for {}",
+                                    name, layer_names(file->state.film.layers()), layer_names(layers)));
         if (const PixelRect& window = file->state.film.window(); window != window_)
             throw Error(fmt::format("cannot resume from '{}': it has the pixels {}, not {}", name,
                                     rectangle_text(window), rectangle_text(window_)));

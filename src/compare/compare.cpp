@@ -97,8 +97,8 @@ CompareOutcome find_outcome(const Comparison& comparison, const CompareOptions& 
 
 Comparison compare(const Image& image_a, const Image& image_b, const CompareOptions& options)
 {
-    Picture a = make_picture(image_a, Side::a);
-    Picture b = make_picture(image_b, Side::b);
+    Picture a = make_picture(image_a, Side::a, options.layer);
+    Picture b = make_picture(image_b, Side::b, options.layer);
     check_comparable(a, b);
     a.is_exact = options.exact == Side::a;
     b.is_exact = options.exact == Side::b;

@@ -44,8 +44,11 @@ void note_scatter(Tracer& tracer, const PathState& path, const BsdfSample& next)
                            text(path.throughput)));
 }
 
-void log_roulette(Tracer& tracer, float survival, bool survived)
+void note_roulette(Tracer& tracer, float survival, bool survived)
 {
+    if (FirstSurfaces* const first = tracer.first_surfaces(); first && survived)
+        first->scatter(Color(1.f / survival));
+    if (!tracer.logging()) return;
     tracer.log(PathEvent::Kind::roulette, fmt::format("{} with probability {:.6g}",
                                                       survived ? "survives" : "does not survive", survival));
 }

@@ -44,7 +44,7 @@ std::string bias_of_depth(int max_depth);
 
 // For the first surfaces, and for `renderer replay`.
 void note_scatter(Tracer& tracer, const PathState& path, const BsdfSample& next);
-void log_roulette(Tracer& tracer, float survival, bool survived);
+void note_roulette(Tracer& tracer, float survival, bool survived);
 
 // What the path's last ray sees, if the technique counts it.
 template <class Technique>
@@ -79,7 +79,7 @@ bool survives(const Technique& technique, Tracer& tracer, Sampler& sampler, Path
     if (survival >= 1.f) return true;
     const bool survived = sampler.next_1d() < survival;
     if (survived) path.throughput /= survival;
-    if (tracer.logging()) log_roulette(tracer, survival, survived);
+    if (tracer.watched()) note_roulette(tracer, survival, survived);
     return survived;
 }
 
