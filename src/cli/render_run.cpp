@@ -95,8 +95,7 @@ private:
         if (!file) {
             if (options_.checkpoint.resume && !options_.quiet)
                 print_log(fmt::format("'{}' does not exist yet; starting with the first sample", name));
-            return {Film(window_, resolution_.x, resolution_.y), {}, {}, {}};
-
+            return {Film(window_, resolution_.x, resolution_.y, layers), {}, {}, {}};
         }
         if (file->state.film.layers() != layers)
             throw Error(fmt::format("cannot resume from '{}': it has the layers {}, and --aov asks for {}",

@@ -7,6 +7,7 @@
 #include "plumb/shape.h"
 #include "shapes/spherical_rectangle.h"
 #include "shapes/triangle.h"
+#include "shapes/triangle_tangents.h"
 
 #include <utility>
 
@@ -80,18 +81,9 @@ public:
     Tangents tangents(const SurfacePoint& at) const override
     {
         const TriangleEdges e = corners(at.primitive).edges();
-        const Tangents edges{Vec3f(e.edge1), Vec3f(e.edge2)}; // by the barycentric coordinates
-        if (mesh_.uvs.empty()) return edges;
+        if (mesh_.uvs.empty()) return {Vec3f(e.edge1), Vec3f(e.edge2)}; // by the barycentric coordinates
         const MeshData::Triangle& t = mesh_.triangles[at.primitive];
-        const auto uv_edge = [&](std::size_t corner) {
-            const Vec2f &from = mesh_.uvs[t[0]], &to = mesh_.uvs[t[corner]];
-            return Vec3d(to.x - static_cast<double>(from.x), to.y - static_cast<double>(from.y), 0.0);
-        };
-        const Vec3d a = uv_edge(1), b = uv_edge(2);
-        const double scale = 1.0 / (a.x * b.y - a.y * b.x);
-        const Tangents by_uv{Vec3f((e.edge1 * b.y - e.edge2 * a.y) * scale),
-                             Vec3f((e.edge2 * a.x - e.edge1 * b.x) * scale)};
-        return is_finite(by_uv.dp_du) && is_finite(by_uv.dp_dv) ? by_uv : edges;
+        return triangle_tangents(e, mesh_.uvs[t[0]], mesh_.uvs[t[1]], mesh_.uvs[t[2]]);
     }
 
     void prepare_sampling() override

@@ -142,9 +142,9 @@ TEST_CASE("layers that are not those of the checkpoint or of another part are re
         return result.err;
     };
     CHECK(refusal({}) ==
-          "error: cannot go on from 'c.exr': it has the layers normal, depth, and --aov asks for none\n");
+          "error: cannot resume from 'c.exr': it has the layers normal, depth, and --aov asks for none\n");
     CHECK(refusal({"--aov", "albedo"}) ==
-          "error: cannot go on from 'c.exr': it has the layers normal, depth, and --aov asks for albedo\n");
+          "error: cannot resume from 'c.exr': it has the layers normal, depth, and --aov asks for albedo\n");
 
     REQUIRE(folder.run({"scene.xml", "-o", "p1.exr", "--part", "1/2", "--aov", "uv"}).exit_code == 0);
     REQUIRE(folder.run({"scene.xml", "-o", "p2.exr", "--part", "2/2"}).exit_code == 0);

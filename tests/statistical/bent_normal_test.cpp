@@ -2,7 +2,7 @@
 
 // BSDFs that bend the normal: path tracing with and without light sampling agree, also where the normal is tilted by 66
 // degrees and the lamp stands at the horizon. If light passed between the bent and the true horizon (bsdf.h), light sampling
-// would miss it.
+// would miss it: without that rule in `normalmap`, path_nee gives 0.105 in place of 0.147 for the first of these floors.
 
 #include "scene/float_mode.h"
 #include "support/catch.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 
-// What every shape of the catalog promises (plumb/shape.h), for each sample of its doc block.
+// What every shape of the catalog promises (plumb/shape.h), for each sample of its doc block as it is, and mirrored and
+// sheared by toWorld.
 
 #include "plumb/scene.h"
 
@@ -62,11 +63,38 @@ struct Case {
     Alone alone;
 };
 
+// The sample with another toWorld.
+std::string with_transform(std::string xml, const std::string& operations)
+{
+    const std::string begin = "<transform name=\"toWorld\">", end = "</transform>";
+    if (const std::size_t at = xml.find(begin); at != xml.npos)
+        xml.erase(at, xml.find(end, at) + end.size() - at);
+    return xml.insert(xml.rfind("</"), begin + operations + end);
+}
+
+// A mirror that shears; or, of shapes that cannot be sheared, one that keeps angles.
+std::unique_ptr<Shape> transformed(const std::string& xml)
+{
+    const std::string turn = "<rotate axis=\"1,2,-1\" angle=\"50\"/><translate value=\"3,-2,1\"/>";
+    try {
+        const Sample sheared(with_transform(
+            xml, "<matrix value=\"-1.5 0.6 0 0  0 0.8 0.3 0  0.2 0 1.2 0  0 0 0 1\"/>" + turn));
+        return sheared.build(shape_types());
+    } catch (const std::runtime_error&) {
+        auto shape =
+            Sample(with_transform(xml, "<scale value=\"-1.5,1.5,1.5\"/>" + turn)).build(shape_types());
+        CHECK(shape->as_ball()); // sheared, it would be none
+        return shape;
+    }
+}
+
 std::vector<Case> cases()
 {
     std::vector<Case> result;
-    for (const auto& sample : samples_of(shape_types()))
+    for (const auto& sample : samples_of(shape_types())) {
         result.push_back({sample->text(), Alone(sample->build(shape_types()))});
+        result.push_back({"transformed " + sample->text(), Alone(transformed(sample->text()))});
+    }
     return result;
 }
 
@@ -80,7 +108,7 @@ double tangent_error(const Tangents& tangents, const SurfacePoint& a, const Surf
     return length(said - moved) / length(moved);
 }
 
-// The largest of the quantities of a point whose means are compared.
+// Quantities of a point whose means are compared.
 std::array<double, 6> quantities(const Vec3f& p, const Vec2f& uv)
 {
     return {p.x, p.y, p.z, sqr<double>(p.x), uv.x, uv.y};

@@ -247,7 +247,7 @@ TEST_CASE("a state file of format 2 is one without layers", "[unit][layers][stat
     folder.write("old.exr", std::string(bytes.begin(), bytes.end()));
     if (version != 2) {
         CHECK(message([&] { read_state(folder / "old.exr"); }) ==
-              fmt::format("cannot go on from '{}': its format has the version {}, and this program knows 3",
+              fmt::format("cannot resume from '{}': its format has version {}, but this program reads version 3",
                           (folder / "old.exr").string(), version));
         return;
     }
