@@ -73,10 +73,10 @@ void check_aovs(Name name, const std::vector<std::string>& aovs)
     }
 }
 
-// "of Embree: sse2, sse4.2, avx, avx2 or avx512 (default avx2)", on the processors that have these.
+// "Embree instruction set: sse2, sse4.2, avx, avx2 or avx512 (default avx2)", on the processors that have these.
 std::string words_of_isa()
 {
-    std::string words = "of Embree: ";
+    std::string words = "Embree instruction set:\n";
     const std::vector<std::string_view> names = instruction_set_names();
     for (std::size_t i = 0; i < names.size(); ++i) {
         if (i > 0) words += i + 1 < names.size() ? ", " : " or ";
@@ -91,8 +91,7 @@ using OptionTable = OptionRow[]; // clang-format gets lost in the declaration wi
 const OptionTable rows = {
     {Topic::output, Effect::run, rendering | merge_only, "-o,--output", "FILE",
      "write this image: .exr, .hdr, .tif, .png or .jpg;\n"
-     "may be repeated (default SCENE_SPP.exr and .png in the\n"
-     "current directory)",
+     "may be repeated (default SCENE_SPP.exr and .png)",
      [](Options& o, Name, Text t) { o.outputs.push_back(t); }, true},
     {Topic::output, Effect::picture, render_only, "--exposure", "EV",
      "multiply .png and .jpg by 2^EV (default 0)",
@@ -117,7 +116,7 @@ const OptionTable rows = {
      "write the difference in false colours, with a scale",
      [](Options& o, Name, Text t) { o.compare.difference = t; }},
     {Topic::output, Effect::run, compare_only, "--diff-of", "WHAT",
-     "error: the largest |A - B| of the channels (default); or flip",
+     "error: the largest |A - B| of the channels (default);\nor flip",
      [](Options& o, Name n, Text t) {
          o.compare.difference_is_flip = parse_word(n, t, {"error", "flip"}) == "flip";
      }},
@@ -142,7 +141,7 @@ const OptionTable rows = {
          o.part->index = index - 1;
          o.part->count = count;
      }},
-    {Topic::state, Effect::run, render_only, "--part-by", "WHAT", "tiles or samples (default tiles)",
+    {Topic::state, Effect::run, render_only, "--part-by", "WHAT", "split by tiles or samples (default tiles)",
      [](Options& o, Name n, Text t) {
          o.part_by = parse_word(n, t, {"tiles", "samples"}) == "tiles" ? PartBy::tiles : PartBy::samples;
      }},
@@ -196,7 +195,7 @@ const OptionTable rows = {
     {Topic::scene, Effect::samples, loads | batch_only, "-D,--define", "NAME=VALUE",
      "value of $NAME in the file; may be repeated", define, true},
     {Topic::scene, Effect::samples, loads, "--dialect", "NAME",
-     "auto, plumb, epfl, eth, zaragoza or mcgill (default auto)",
+     "dialect of the scene: auto, plumb, epfl, eth,\nzaragoza or mcgill (default auto)",
      [](Options& o, Name n, Text t) {
          o.load.dialect = dialect_from_string(parse_word(n, t, dialect_words()));
      }},
@@ -246,8 +245,7 @@ const OptionTable rows = {
      [](Options& o, Name n, Text t) { o.sample = parse_integer(n, t, 0, UINT64_MAX); }},
 
     {Topic::verdict, Effect::run, compare_only | agree_or_race, "--significance", "P",
-     "probability of finding a difference where there is none\n"
-     "(default 0.01)",
+     "probability of a false difference (default 0.01)",
      [](Options& o, Name n, Text t) { o.compare.how.significance = parse_double(n, t, 1e-9, 0.5); }},
     {Topic::verdict, Effect::run, compare_only, "--layer", "NAME",
      "compare the channels NAME.* instead of the colours",
