@@ -125,7 +125,7 @@ TEST_CASE("the name of the previous generation takes no file of others", "[cli][
                           "c.previous.exr", "--quiet"})
                     .exit_code == 0);
         check_refused(folder, {"-o", "a.exr", "--checkpoint", "c.exr", "--resume"},
-                      "and that is the state of another rendering");
+                      "which is the state of another rendering");
         return;
     }
     SECTION("when it is a scene")
@@ -138,7 +138,7 @@ TEST_CASE("the name of the previous generation takes no file of others", "[cli][
         REQUIRE(folder.run({"scene.xml", "--part", "1/1", "-o", "p.exr", "--quiet"}).exit_code == 0);
         const auto run = folder.run({"merge", "p.exr", "--checkpoint", "c.exr"});
         CHECK(run.exit_code == 1);
-        CHECK_THAT(run.err, ContainsSubstring("and that is another file"));
+        CHECK_THAT(run.err, ContainsSubstring("which is another file"));
     }
     CHECK(read_bytes(folder / "c.previous.exr") == scene);
 }
