@@ -151,7 +151,7 @@ TEST_CASE("layers that are not those of the checkpoint or of another part are re
     const RunResult merged = folder.run({"merge", "p1.exr", "p2.exr", "-o", "m.exr"});
     CHECK(merged.exit_code == 1);
     CHECK(merged.err ==
-          "error: 'p1.exr' and 'p2.exr' are not of one picture: one has the layers uv, the other "
+          "error: 'p1.exr' and 'p2.exr' are not parts of one image: one has the layers uv, the other "
           "none\n");
 }
 

@@ -108,7 +108,7 @@ TEST_CASE("the name of the previous generation takes no file of others", "[cli][
     const std::string scene = read_bytes(folder / "scene.xml");
     SECTION("when a rendering begins")
     {
-        check_refused(folder, {"-o", "a.exr", "--checkpoint", "c.exr"}, "'c.previous.exr' is there already");
+        check_refused(folder, {"-o", "a.exr", "--checkpoint", "c.exr"}, "'c.previous.exr' already exists");
     }
     SECTION("when one is gone on with")
     {
@@ -149,10 +149,10 @@ TEST_CASE("pipes in the way hold nobody up", "[cli][files]")
     for (const char* name : {".a.exr.part0", "c.previous.exr"})
         REQUIRE(mkfifo((folder / name).c_str(), 0600) == 0);
     CHECK(folder.run({"scene.xml", "-o", "a.exr", "--quiet"}).exit_code == 0);
-    check_refused(folder, {"-o", "b.exr", "--checkpoint", "c.exr"}, "'c.previous.exr' is there already");
+    check_refused(folder, {"-o", "b.exr", "--checkpoint", "c.exr"}, "'c.previous.exr' already exists");
     const RunResult resumed = run_long(folder, {"-o", "b.exr", "--checkpoint", "c.exr", "--resume"});
     CHECK(resumed.exit_code == 1);
-    CHECK_THAT(resumed.err, ContainsSubstring("it is a device, a pipe or the like"));
+    CHECK_THAT(resumed.err, ContainsSubstring("it is a device or a pipe, not a regular file"));
 }
 
 TEST_CASE("names of files steer no terminal, in whatever message or table they are", "[cli][files]")
@@ -173,7 +173,7 @@ TEST_CASE("names of files steer no terminal, in whatever message or table they a
     REQUIRE(folder.run({"scene.xml", "-o", "a.exr", "--quiet"}).exit_code == 0);
     const std::vector<Names> runs = {
         {scene, "-o", evil + ".exr", "--checkpoint", evil + ".state.exr"},
-        {scene, "-o", evil + ".exr", "--checkpoint", evil + ".state.exr"}, // is there already
+        {scene, "-o", evil + ".exr", "--checkpoint", evil + ".state.exr"}, // already exists
         {scene, "-o", evil + ".exr", "--checkpoint", evil + ".state.exr", "--resume"},
         {scene, "-o", "no/" + evil + ".exr"},
         {scene, "-o", "a" + evil},

@@ -171,5 +171,5 @@ TEST_CASE("a picture whose mesh lay in the working folder is rendered again, or 
     const RunResult changed =
         run_renderer({"rerun", "../a.exr", "-o", "c.exr", "--scene", "../scenes/a.xml"}, files / "other");
     CHECK(changed.exit_code == 1);
-    CHECK_THAT(changed.err, ContainsSubstring("the scene is not what it was"));
+    CHECK_THAT(changed.err, ContainsSubstring("the scene has changed"));
 }
