@@ -35,7 +35,7 @@ say_what_is_needed() {
     say "Plumb needs a C++20 compiler, CMake 3.22 and Ninja, and these libraries with their headers:"
     say "    Embree 3.13 or 4, OpenImageIO, OpenEXR, Imath 3, tinyobjloader, pugixml, oneTBB, CLI11, fmt, OpenSSL 1.1 or 3, Catch2 2 or 3"
     say "In Debian 12 and 13 they are: ${plumb_packages[*]}"
-    say "Once they are there: PLUMB_SKIP_INSTALL=1 $0 ..."
+    say "When they are installed: PLUMB_SKIP_INSTALL=1 $0 ..."
 }
 
 # Runs a command with its output in a file; shows the file only if the command fails.
@@ -62,11 +62,11 @@ install_packages() {
     local as_root=()
     if ((EUID != 0)); then
         command -v sudo >/dev/null ||
-            die "these packages are missing, and installing them takes root or sudo: ${missing[*]}"
+            die "these packages are missing, and installing them needs root or sudo: ${missing[*]}"
         as_root=(sudo)
     fi
     as_root+=(env DEBIAN_FRONTEND=noninteractive)
-    say "installing with apt-get, with what they depend on: ${missing[*]}"
+    say "installing with apt-get, including dependencies: ${missing[*]}"
 
     local install=("${as_root[@]}" apt-get install --yes --no-install-recommends "${missing[@]}")
     local fresh

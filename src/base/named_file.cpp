@@ -87,10 +87,9 @@ NamedFile find_named_file(const fs::path& directory, const std::string& name)
         if (is_there(here))
             return {here,
                     {},
-                    fmt::format(
-                        "'{}' is not beside '{}' but in the working directory, where another run may find "
-                        "another file or none; write '{}'",
-                        here.string(), directory.string(), seen_from(directory, here))};
+                    fmt::format("'{}' is not beside '{}' but in the working directory, so another run may "
+                                "find another file or none; write '{}'",
+                                here.string(), directory.string(), seen_from(directory, here))};
     }
     return {beside, way_out_of(directory, slashes), {}};
 }

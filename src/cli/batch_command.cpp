@@ -29,7 +29,7 @@ std::vector<BatchJob> chosen(const std::vector<BatchJob>& jobs, const Options& o
     for (const BatchJob& job : jobs)
         if (is_chosen(job.entry.title(), options.batch.filter)) result.push_back(job);
     if (result.empty())
-        throw Error(fmt::format("no picture of '{}' has a name like '{}'; the first is {}", options.subject,
+        throw Error(fmt::format("no image of '{}' matches '{}'; the first image is {}", options.subject,
                                 options.batch.filter, jobs.front().entry.title()));
     return result;
 }

@@ -27,8 +27,9 @@ bool is_low_dynamic_range(const std::filesystem::path& path)
 void write_reports(const Options& options, const Comparison& comparison, const Image& a, const Image& b)
 {
     if (!options.compare.difference.empty())
-        write_image(options.compare.difference,
-                    options.compare.difference_is_flip ? flip_image(comparison) : difference_image(a, b));
+        write_image(options.compare.difference, options.compare.difference_is_flip
+                                                    ? flip_image(comparison)
+                                                    : difference_image(a, b, options.compare.how.layer));
     if (!options.json.empty())
         write_json(options.json,
                    comparison_json(comparison, options.compare.how, options.subject, options.subjects[1]));
@@ -38,8 +39,10 @@ void write_reports(const Options& options, const Comparison& comparison, const I
 
 std::string_view compare_manual()
 {
-    return "Could A and B, the reference, be pictures of the same thing, but for their noise?\n"
-           "Exit code: 0 passes, 1 cannot be compared, 2 wrong usage, 3 differs, 4 undecided.\n";
+    return R"(Tests whether A and the reference B are equal except for their noise.
+Exit code: 0 passes, 1 cannot be compared, 2 wrong usage, 3 differs,
+4 undecided.
+)";
 }
 
 int compare_command(const Options& options)
@@ -48,12 +51,14 @@ int compare_command(const Options& options)
     if (!options.compare.difference.empty()) images.push_back(options.compare.difference);
     check_outputs(images, options.json);
     refuse_overwriting_inputs(KeptFiles({options.subject, options.subjects[1]}), images, options.json,
-                              "it is one of the pictures to compare");
+                              "it is one of the images to compare");
     const Image a = read_image(options.subject, true);
     const Image b = read_image(options.subjects[1], true);
 
     CompareOptions how = options.compare.how;
-    if (options.compare.choose_flip)
+    if (options.compare.choose_flip && !how.layer.empty())
+        how.flip = FlipMode::none; // numbers, no colours
+    else if (options.compare.choose_flip)
         how.flip = is_low_dynamic_range(options.subject) && is_low_dynamic_range(options.subjects[1])
                        ? FlipMode::ldr
                        : FlipMode::hdr;

@@ -25,11 +25,11 @@ void log_facts(const Options& options, const LoadedScene& loaded)
                           scene.triangle_count(), scene.emitters().size()));
     if (!bounds.isEmpty())
         print_log(fmt::format("bounds: {} to {}", point_text(bounds.min), point_text(bounds.max)));
-    print_log(fmt::format("picture: {} x {} pixels, {} samples each, seed {}", resolution.x, resolution.y,
+    print_log(fmt::format("image: {} x {} pixels, {} samples each, seed {}", resolution.x, resolution.y,
                           loaded.job.sampler->samples_per_pixel(), options.render.seed));
     print_log(fmt::format("integrator: {}; sampler: {}", loaded.integrator, loaded.sampler));
     print_log(fmt::format(
-        "readings: emitters {}, mirror {}, point lights in {}, environment images {}times {}",
+        "dialect settings: emitters {}, mirror {}, point lights in {}, environment images {}times {}",
         loaded.dialect.emitters_absorb ? "absorb" : "scatter", loaded.dialect.mirrored_view ? "on" : "off",
         loaded.dialect.point_takes_power ? "power" : "radiance",
         loaded.dialect.environment_flipped ? "flipped and " : "", loaded.dialect.environment_scale));
@@ -57,7 +57,7 @@ LoadedScene load_and_log(const Options& options)
     if (!std::filesystem::exists(path, ignored)) {
         if (is_no_file_name(options.subject) && !closest_verb(options.subject).empty())
             throw UsageError(unknown_verb(options.subject));
-        throw Error(fmt::format("there is no scene file '{}'{}", options.subject,
+        throw Error(fmt::format("scene file '{}' does not exist{}", options.subject,
                                 find_named_file({}, options.subject).way_out));
     }
     LoadedScene scene = load_scene(path, load_options(options));

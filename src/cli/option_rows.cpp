@@ -3,6 +3,7 @@
 
 #include "cli/values.h"
 #include "cli/verbs.h"
+#include "plumb/render/aovs.h"
 #include "plumb/scene/instruction_set.h"
 
 #include <algorithm>
@@ -63,10 +64,19 @@ void add_limits(Options& options, Name name, Text text)
     }
 }
 
-// "of Embree: sse2, sse4.2, avx, avx2 or avx512 (default avx2)", on the processors that have these.
+void check_aovs(Name name, const std::vector<std::string>& aovs)
+{
+    try {
+        layers_of(aovs);
+    } catch (const Error& problem) {
+        throw UsageError(fmt::format("{}: {}", name, problem.what()));
+    }
+}
+
+// "Embree instruction set: sse2, sse4.2, avx, avx2 or avx512 (default avx2)", on the processors that have these.
 std::string words_of_isa()
 {
-    std::string words = "of Embree: ";
+    std::string words = "Embree instruction set:\n";
     const std::vector<std::string_view> names = instruction_set_names();
     for (std::size_t i = 0; i < names.size(); ++i) {
         if (i > 0) words += i + 1 < names.size() ? ", " : " or ";
@@ -80,20 +90,21 @@ const std::string isa_help = words_of_isa();
 using OptionTable = OptionRow[]; // clang-format gets lost in the declaration without it
 const OptionTable rows = {
     {Topic::output, Effect::run, rendering | merge_only, "-o,--output", "FILE",
-     "write this image: .exr, .hdr, .tif, .png or .jpg; may be given\n"
-     "several times (default SCENE_SPP.exr and .png in this directory)",
+     "write this image: .exr, .hdr, .tif, .png or .jpg;\n"
+     "may be repeated (default SCENE_SPP.exr and .png)",
      [](Options& o, Name, Text t) { o.outputs.push_back(t); }, true},
     {Topic::output, Effect::picture, render_only, "--exposure", "EV",
      "multiply .png and .jpg by 2^EV (default 0)",
      [](Options& o, Name n, Text t) { o.exposure = parse_number(n, t, -100.f, 100.f); }},
     {Topic::output, Effect::picture, render_only, "--no-variance", "",
-     "leave the error bars out of .exr files: variance.R, variance.G,\n"
-     "variance.B and contributing",
+     "omit the error bars from .exr files: variance.R,\n"
+     "variance.G, variance.B and contributing",
      [](Options& o, Name, Text) { o.variance = false; }},
     {Topic::output, Effect::run, rendering | merge_only | test_only | compare_only | agree_or_race, "--json",
      "FILE", "write a report of the run; - is standard output", [](Options& o, Name, Text t) { o.json = t; }},
-    {Topic::output, Effect::run, batch_only, "--out", "DIRECTORY",
-     "for pictures and reports (default batch/SUITE)",
+    {Topic::output, Effect::run, batch_only, "--out", "DIR",
+     "directory for images and reports\n"
+     "(default batch/SUITE)",
      [](Options& o, Name n, Text t) {
          if (t.empty()) throw UsageError(fmt::format("{} needs a directory", n));
          o.batch.directory = t;
@@ -105,83 +116,94 @@ const OptionTable rows = {
      "write the difference in false colours, with a scale",
      [](Options& o, Name, Text t) { o.compare.difference = t; }},
     {Topic::output, Effect::run, compare_only, "--diff-of", "WHAT",
-     "error: the largest |A - B| of the channels (default); or flip",
+     "error: the largest |A - B| of the channels (default);\nor flip",
      [](Options& o, Name n, Text t) {
          o.compare.difference_is_flip = parse_word(n, t, {"error", "flip"}) == "flip";
      }},
 
     {Topic::state, Effect::run, render_only | merge_only, "--checkpoint", "FILE",
-     "keep all that is rendered in this .exr file, to go on from",
+     "write checkpoints to this .exr file, to resume from",
      [](Options& o, Name n, Text t) {
          if (t.empty()) throw UsageError(fmt::format("{} needs a file name", n));
          o.checkpoint.file = t;
      }},
     {Topic::state, Effect::run, render_only, "--checkpoint-every", "T",
-     "how often: 90, 90s, 10m or 2h (default 60s)",
+     "checkpoint interval: 90, 90s, 10m or 2h (default 60s)",
      [](Options& o, Name n, Text t) { o.checkpoint.every_seconds = parse_duration(n, t); }},
-    {Topic::state, Effect::run, render_only, "--resume", "", "go on from the checkpoint, if there is one",
+    {Topic::state, Effect::run, render_only, "--resume", "", "resume from the checkpoint, if it exists",
      [](Options& o, Name, Text) { o.checkpoint.resume = true; }},
     {Topic::state, Effect::run, render_only, "--part", "K/N",
-     "take the samples of part K of N only, from 1; -o is then a file\nfor 'renderer merge', and the "
-     "checkpoint",
+     "render part K of N only, K from 1 to N; -o is then a\n"
+     "file for 'renderer merge', and the checkpoint",
      [](Options& o, Name n, Text t) {
          const auto [index, count] = parse_part(n, t);
          if (!o.part) o.part.emplace();
          o.part->index = index - 1;
          o.part->count = count;
      }},
-    {Topic::state, Effect::run, render_only, "--part-by", "WHAT", "tiles or samples (default tiles)",
+    {Topic::state, Effect::run, render_only, "--part-by", "WHAT", "split by tiles or samples (default tiles)",
      [](Options& o, Name n, Text t) {
          o.part_by = parse_word(n, t, {"tiles", "samples"}) == "tiles" ? PartBy::tiles : PartBy::samples;
      }},
-    {Topic::state, Effect::run, merge_only, "--allow-missing", "",
-     "make the picture although samples are missing", [](Options& o, Name, Text) { o.allow_missing = true; }},
+    {Topic::state, Effect::run, merge_only, "--allow-missing", "", "merge even if samples are missing",
+     [](Options& o, Name, Text) { o.allow_missing = true; }},
 
     {Topic::picture, Effect::samples, both | agree_or_race, "--spp", "N",
      "samples per pixel (default: the scene's)",
      [](Options& o, Name n, Text t) { o.load.samples_per_pixel = parse_integer(n, t, 1, film_max_samples); }},
     {Topic::picture, Effect::samples, both | test_only | agree_or_race, "--seed", "N",
-     "of the random numbers, 64 bits (default 0)",
+     "seed of the random numbers, 64 bits (default 0)",
      [](Options& o, Name n, Text t) { o.render.seed = parse_integer(n, t, 0, UINT64_MAX); }},
     {Topic::picture, Effect::samples, loads_scene, "--size", "WxH", "resolution (default: the scene's)",
      [](Options& o, Name n, Text t) { o.load.resolution = parse_size(n, t); }},
     {Topic::picture, Effect::picture, render_only, "--crop", "X,Y,W,H",
-     "render this part only; same bits as in the whole",
+     "render this window only; same bits as in the full\n"
+     "image",
      [](Options& o, Name n, Text t) { o.render.crop = parse_rectangle(n, t); }},
+    {Topic::picture, Effect::picture, render_only, "--aov", "NAME,...",
+     "add layers to .exr files: albedo, normal, depth and\nothers (docs/aovs.md)",
+     [](Options& o, Name n, Text t) {
+         o.render.aovs = parse_list(n, t);
+         check_aovs(n, o.render.aovs);
+     }},
     {Topic::picture, Effect::samples, both | check_only, "--integrator", "TYPE",
-     "instead of the scene's, with default parameters",
+     "use this integrator instead of the scene's, with\n"
+     "default parameters",
      [](Options& o, Name, Text t) { o.load.integrator = t; }},
-    {Topic::picture, Effect::samples, both, "--sampler", "TYPE", "instead of the scene's",
+    {Topic::picture, Effect::samples, both, "--sampler", "TYPE", "use this sampler instead of the scene's",
      [](Options& o, Name, Text t) { o.load.sampler = t; }},
     {Topic::picture, Effect::run, agree_or_race, "--integrators", "TYPE,...",
-     "which estimators (default path,path_nee,path_mis)",
+     "estimators (default path,path_nee,path_mis)",
      [](Options& o, Name n, Text t) { o.estimators.integrators = parse_list(n, t); }},
     {Topic::picture, Effect::run, agree_or_race, "--samplers", "TYPE,...",
-     "each estimator with each of them (default: the scene's)",
+     "use each estimator with each of these samplers\n"
+     "(default: the scene's)",
      [](Options& o, Name n, Text t) { o.estimators.samplers = parse_list(n, t); }},
     {Topic::picture, Effect::run, race_only, "--rounds", "N",
-     "pictures by each estimator, of --spp samples (default 16)",
+     "images per estimator, of --spp samples each\n"
+     "(default 16)",
      [](Options& o, Name n, Text t) { o.race.rounds = parse_integer(n, t, 3, 10000); }},
     {Topic::picture, Effect::picture, render_only | agree_or_race, "--time", "T",
-     "take about as long, in all: 90, 90s, 10m or 2h; rendering takes\nat most --spp samples",
+     "time limit in all: 90, 90s, 10m or 2h; rendering\n"
+     "takes at most --spp samples",
      [](Options& o, Name n, Text t) { o.stop.seconds = parse_duration(n, t); }},
     {Topic::picture, Effect::picture, render_only, "--target-error", "E",
-     "until the noise is below E times the picture's mean (its RMSE,\nthe upper end of the 95 % interval)",
+     "stop when the expected RMSE is below E times the mean\n"
+     "of the image (upper end of the 95 % interval)",
      [](Options& o, Name n, Text t) { o.stop.relative_error = parse_double(n, t, 1e-9, 1e3); }},
 
     {Topic::scene, Effect::samples, loads | batch_only, "-D,--define", "NAME=VALUE",
      "value of $NAME in the file; may be repeated", define, true},
     {Topic::scene, Effect::samples, loads, "--dialect", "NAME",
-     "auto, plumb, epfl, eth, zaragoza or mcgill (default auto)",
+     "dialect of the scene: auto, plumb, epfl, eth,\nzaragoza or mcgill (default auto)",
      [](Options& o, Name n, Text t) {
          o.load.dialect = dialect_from_string(parse_word(n, t, dialect_words()));
      }},
-    {Topic::scene, Effect::samples, loads, "--emitters", "WHAT",
-     "scatter or absorb the light that meets them",
+    {Topic::scene, Effect::samples, loads, "--emitters", "WHAT", "emitters scatter or absorb incident light",
      [](Options& o, Name n, Text t) {
          o.load.emitters_absorb = parse_word(n, t, {"scatter", "absorb"}) == "absorb";
      }},
-    {Topic::scene, Effect::samples, loads_scene, "--mirror", "on|off", "flop the picture left to right",
+    {Topic::scene, Effect::samples, loads_scene, "--mirror", "on|off", "mirror the image left to right",
      [](Options& o, Name n, Text t) {
          o.load.mirrored_view = parse_word(n, t, {"on", "off"}) == "on";
      }},
@@ -190,41 +212,48 @@ const OptionTable rows = {
     {Topic::scene, Effect::samples, loads, "--lenient", "", "unknown parameters are warnings, not errors",
      [](Options& o, Name, Text) { o.load.lenient = true; }},
 
-    {Topic::scene, Effect::run, rerun_only, "--scene", "FILE", "where the scene file lies now",
+    {Topic::scene, Effect::run, rerun_only, "--scene", "FILE", "the path of the scene file",
      [](Options& o, Name n, Text t) {
          if (t.empty()) throw UsageError(fmt::format("{} needs a file name", n));
          o.scene = t;
      }},
 
     {Topic::running, Effect::run, batch_only, "--filter", "TEXT",
-     "only pictures whose names contain it, or match it if it has * or ?",
+     "only images whose names contain this, or match it if\n"
+     "it has * or ?",
      [](Options& o, Name n, Text t) {
          if (t.empty()) throw UsageError(fmt::format("{} needs a text", n));
          o.batch.filter = t;
      }},
-    {Topic::running, Effect::run, batch_only, "--fail-fast", "", "stop at the first that does not pass",
+    {Topic::running, Effect::run, batch_only, "--fail-fast", "", "stop at the first image that does not pass",
      [](Options& o, Name, Text) { o.batch.fail_fast = true; }},
-    {Topic::running, Effect::run, batch_only, "--force", "", "render also what is up to date",
+    {Topic::running, Effect::run, batch_only, "--force", "", "also render what is up to date",
      [](Options& o, Name, Text) { o.batch.force = true; }},
     {Topic::running, Effect::run, rendering | test_only | agree_or_race | batch_only, "-t,--threads", "N",
-     "how many (default: all there are)",
+     "number of threads (default: all)",
      [](Options& o, Name n, Text t) { o.render.threads = static_cast<int>(parse_integer(n, t, 1, 1024)); }},
     {Topic::running, Effect::samples, loads, "--isa", "NAME", isa_help.c_str(),
      [](Options& o, Name n, Text t) { o.load.instruction_set = parse_word(n, t, instruction_set_names()); }},
     {Topic::running, Effect::run, loads | rerun_only | merge_only | compare_only | batch_only, "--quiet", "",
-     "print nothing but errors", [](Options& o, Name, Text) { o.quiet = true; }},
+     "print errors only", [](Options& o, Name, Text) { o.quiet = true; }},
     {Topic::running, Effect::run, loads_scene | rerun_only, "--verbose", "", "print facts about the scene",
      [](Options& o, Name, Text) { o.verbose = true; }},
 
     {Topic::path, Effect::run, replay_only, "--pixel", "X,Y", "the pixel, counted from the upper left corner",
      [](Options& o, Name n, Text t) { o.pixel = parse_pixel(n, t); }},
-    {Topic::path, Effect::run, replay_only, "--sample", "I", "which of its samples, counted from 0",
+    {Topic::path, Effect::run, replay_only, "--sample", "I", "the index of the sample, counted from 0",
      [](Options& o, Name n, Text t) { o.sample = parse_integer(n, t, 0, UINT64_MAX); }},
 
     {Topic::verdict, Effect::run, compare_only | agree_or_race, "--significance", "P",
-     "chance to find a difference where there is none (default 0.01)",
+     "probability of a false difference (default 0.01)",
      [](Options& o, Name n, Text t) { o.compare.how.significance = parse_double(n, t, 1e-9, 0.5); }},
-    {Topic::verdict, Effect::run, compare_only, "--exact", "A|B", "this picture has no noise",
+    {Topic::verdict, Effect::run, compare_only, "--layer", "NAME",
+     "compare the channels NAME.* instead of the colours",
+     [](Options& o, Name n, Text t) {
+         if (t.empty()) throw UsageError(fmt::format("{} needs a name", n));
+         o.compare.how.layer = t;
+     }},
+    {Topic::verdict, Effect::run, compare_only, "--exact", "A|B", "this image has no noise",
      [](Options& o, Name n, Text t) {
          o.compare.how.exact = parse_word(n, t, {"A", "B"}) == "A" ? Side::a : Side::b;
      }},
@@ -232,10 +261,13 @@ const OptionTable rows = {
      "ignore the noise: the limits of --max decide",
      [](Options& o, Name, Text) { o.compare.how.verdict = false; }},
     {Topic::verdict, Effect::run, compare_only | agree_or_race, "--fail-percent", "P",
-     "of the pixels may differ or stay undecided (default 0)",
+     "allow P % of the pixels to differ or stay undecided\n"
+     "(default 0)",
      [](Options& o, Name n, Text t) { o.compare.how.fail_percent = parse_double(n, t, 0.0, 100.0); }},
     {Topic::verdict, Effect::run, compare_only, "--max", "METRIC=X,...",
-     "fail above these: mse, rmse, relmse, mae, max, flip; or below: psnr", add_limits, true},
+     "fail above these: mse, rmse, relmse, mae, max, flip;\n"
+     "or below: psnr",
+     add_limits, true},
     {Topic::verdict, Effect::run, compare_only, "--flip", "MODE",
      "ldr, hdr or none (default: ldr for .png and the like)",
      [](Options& o, Name n, Text t) {
@@ -276,7 +308,7 @@ std::string help_text(Verb verb)
         for (const VerbRow& row : verb_rows())
             text +=
                 fmt::format("{} {:<47} {}\n", text.empty() ? "usage:" : "      ", row.command(), row.summary);
-        text += "A scene file that is called like a verb is given as ./types.\n";
+        text += "If a scene file has the name of a verb, write it as ./types.\n";
     } else {
         text = fmt::format("usage: {}\n", asked.command());
         if (asked.manual) text += asked.manual();

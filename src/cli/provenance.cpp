@@ -71,9 +71,8 @@ std::optional<std::uint64_t> header_samples(const Metadata& header, std::string_
     if (there == header.end()) return std::nullopt;
     const int* const samples = std::get_if<int>(&there->second);
     if (!samples || *samples < 1 || static_cast<std::uint64_t>(*samples) > film_max_samples)
-        throw Error(
-            fmt::format("the header of '{}' makes no sense: {} must be an integer from 1 to {}, not {}", file,
-                        name, film_max_samples, value_text(header, name)));
+        throw Error(fmt::format("the header of '{}' is invalid: {} must be an integer from 1 to {}, not {}",
+                                file, name, film_max_samples, value_text(header, name)));
     return static_cast<std::uint64_t>(*samples);
 }
 
@@ -82,8 +81,7 @@ Options header_options(const Metadata& header, const std::string& scene, const s
     try {
         return options_of_header(scene, shell_split(header_text(header, "plumb:arguments")));
     } catch (const UsageError& problem) {
-        throw Error(
-            fmt::format("the header of '{}' makes no sense: plumb:arguments: {}", file, problem.what()));
+        throw Error(fmt::format("the header of '{}' is invalid: plumb:arguments: {}", file, problem.what()));
     }
 }
 
@@ -100,12 +98,13 @@ std::vector<std::string> input_changes(const Metadata& then, const Metadata& now
     for (const auto& [name, hash] : hash_of_name(header_text(now, "plumb:inputs"))) {
         const auto found = expected.find(name);
         if (found == expected.end())
-            changes.push_back(fmt::format("'{}' was not read then", name));
+            changes.push_back(fmt::format("'{}' is a new input", name));
         else if (found->second != hash)
             changes.push_back(fmt::format("'{}' has changed", name));
         if (found != expected.end()) expected.erase(found);
     }
-    for (const auto& [name, hash] : expected) changes.push_back(fmt::format("'{}' is no longer read", name));
+    for (const auto& [name, hash] : expected)
+        changes.push_back(fmt::format("'{}' is no longer an input", name));
     return changes;
 }
 
@@ -113,26 +112,25 @@ std::vector<std::string> sample_changes(const Metadata& then, const Metadata& no
 {
     constexpr std::pair<const char*, const char*> settings[] = {
         {"Software", "the program"},
-        {"plumb:workProgram", "the program's code"},
-        {"plumb:definitions", "what --define says"},
+        {"plumb:workProgram", "the hash of the program"},
+        {"plumb:definitions", "--define"},
         {"plumb:integrator", "the integrator"},
         {"plumb:sampler", "the sampler"},
-        {"plumb:samplerTotal", "the total number of samples, on which those of the sampler depend,"},
+        {"plumb:samplerTotal", "the sampler's total number of samples"},
         {"plumb:seed", "the seed"},
         {"plumb:dialect", "the dialect"},
-        {"plumb:emitters", "what emitters do"},
-        {"plumb:mirror", "the mirrored view"},
+        {"plumb:emitters", "--emitters"},
+        {"plumb:mirror", "--mirror"},
         {"plumb:point", "the unit of point lights"},
         {"plumb:envmapFlipped", "the flip of environment images"},
         {"plumb:envmapScale", "the scale of environment images"},
         {"plumb:instructionSet", "the instruction set"},
         {"plumb:embree", "Embree's version"},
-        {"plumb:processor", "the processor's maker"},
+        {"plumb:processor", "the processor vendor"},
     };
     if (has_old_hashes(then) != has_old_hashes(now))
-        return {"its inputs are told by hashes of Plumb 0.1, not by SHA-256, so that nobody can tell whether "
-                "they are what "
-                "they were"};
+        return {
+            "it identifies its inputs by hashes of Plumb 0.1, not by SHA-256, so they cannot be verified"};
     std::vector<std::string> changes = input_changes(then, now);
     for (const auto& [name, meaning] : settings)
         if (const std::string was = value_text(then, name), is = value_text(now, name); was != is)
@@ -140,7 +138,7 @@ std::vector<std::string> sample_changes(const Metadata& then, const Metadata& no
     if (const int was = language_of(then), is = language_of(now); was != is)
         changes.push_back(fmt::format("the version of the scene language was {} and is {}", was, is));
     if (changes.empty() && value_text(then, "plumb:inputHash") != value_text(now, "plumb:inputHash"))
-        changes.emplace_back("the options are not the same");
+        changes.emplace_back("the options differ");
     return changes;
 }
 

@@ -58,12 +58,12 @@ const Format& format_of(const std::filesystem::path& path)
     fail(path, fmt::format("unknown extension '{}'; known are {}", path.extension().string(), known));
 }
 
-// Error bars go into formats that hold any channel. They come last.
+// Layers go into formats that hold any channel. They come last.
 int channels_written(const Image& image, const Format& format)
 {
     const std::vector<std::string>& names = image.channel_names();
-    const auto first_of_evidence = std::find_if(names.begin(), names.end(), is_evidence_channel);
-    return format.keeps_all ? image.channel_count() : static_cast<int>(first_of_evidence - names.begin());
+    const auto first_of_layers = std::find_if(names.begin(), names.end(), is_layer_channel);
+    return format.keeps_all ? image.channel_count() : static_cast<int>(first_of_layers - names.begin());
 }
 
 std::vector<std::uint8_t> encode_srgb(const Image& image, int channels, float exposure)

@@ -24,7 +24,7 @@ public:
         return trace_path(*this, tracer, sampler, ray);
     }
 
-    std::string bias() const override { return "light between surfaces that are not smooth is left out"; }
+    std::string bias() const override { return "light between surfaces that are not smooth is omitted"; }
 
     Color direct(Tracer& tracer, Sampler& sampler, const Vertex& vertex) const
     {

@@ -88,11 +88,10 @@ TEST_CASE("a file in the working directory is found, and the notice says what to
             const RunResult result = files.check(parameter, name);
             CHECK(result.exit_code == 3);
             CHECK_THAT(result.err,
-                       ContainsSubstring(
-                           "warning: '" + parameter.file +
-                           "' is not beside 'scenes' but in the working directory, where another run may "
-                           "find another file or none; write '../" +
-                           parameter.file + "'\n"));
+                       ContainsSubstring("warning: '" + parameter.file +
+                                         "' is not beside 'scenes' but in the working directory, so another "
+                                         "run may find another file or none; write '../" +
+                                         parameter.file + "'\n"));
             // What it says to write is right.
             CHECK_THAT(files.check(parameter, "../" + parameter.file).err, !ContainsSubstring("warning"));
         }
@@ -103,17 +102,18 @@ TEST_CASE("a file of that name in other letters, or elsewhere, is suggested", "[
 {
     for (const Parameter& parameter : parameters) {
         const std::string file = parameter.file.substr(parameter.file.find('/') + 1);
-        const std::string what =
-            parameter.name.empty() ? "there is no file" : "names a file that does not exist:";
-        const std::string start =
-            "error: " + (parameter.name.empty() ? "" : parameter.name + " ") + what + " '";
+        const bool is_include = parameter.name.empty();
+        const std::string start = is_include
+                                      ? "error: file '"
+                                      : "error: " + parameter.name + " names a file that does not exist: '";
+        const std::string end = is_include ? "' does not exist" : "'";
         const auto suggests = [&](const Files& files, const std::string& name,
                                   const std::string& suggestion) {
             CAPTURE(name);
             const RunResult result = files.check(parameter, name);
             CHECK(result.exit_code == 1);
             CHECK_THAT(result.err, ContainsSubstring(start + "scenes/") || ContainsSubstring(start + "/"));
-            CHECK_THAT(result.err, ContainsSubstring("'; did you mean '" + suggestion + "'?\n"));
+            CHECK_THAT(result.err, ContainsSubstring(end + "; did you mean '" + suggestion + "'?\n"));
             CHECK_THAT(files.check(parameter, suggestion).out, ContainsSubstring("memory: "));
         };
         const Files beside("scenes/"), here("");
@@ -148,7 +148,7 @@ TEST_CASE("scenes of suites, and scenes on the command line, have the same way o
 
     const RunResult slip = run_renderer({"check", "scenes/A.xml"}, files.path());
     CHECK(slip.exit_code == 1);
-    CHECK(slip.err == "error: there is no scene file 'scenes/A.xml'; did you mean 'scenes/a.xml'?\n");
+    CHECK(slip.err == "error: scene file 'scenes/A.xml' does not exist; did you mean 'scenes/a.xml'?\n");
 }
 
 TEST_CASE("a picture whose mesh lay in the working directory is rendered again, or refused",
@@ -171,5 +171,5 @@ TEST_CASE("a picture whose mesh lay in the working directory is rendered again, 
     const RunResult changed =
         run_renderer({"rerun", "../a.exr", "-o", "c.exr", "--scene", "../scenes/a.xml"}, files / "other");
     CHECK(changed.exit_code == 1);
-    CHECK_THAT(changed.err, ContainsSubstring("the scene is not what it was"));
+    CHECK_THAT(changed.err, ContainsSubstring("the scene has changed"));
 }

@@ -343,7 +343,7 @@ TEST_CASE("broken pictures are errors on one line that name the file", "[unit][i
     for (const std::string extension : {".png", ".exr", ".hdr", ".tif", ".jpg"}) {
         directory.write("empty" + extension, "");
         check("empty" + extension);
-        directory.write("text" + extension, "this is no picture");
+        directory.write("text" + extension, "this is no image");
         check("text" + extension);
     }
     for (const std::string extension : {".png", ".exr", ".tif", ".jpg", ".hdr"}) {
@@ -417,8 +417,7 @@ TEST_CASE("pictures far from any corner are read right or refused", "[unit][imag
         CHECK(image.pixel(window.x + 199, window.y)[0] == Approx(100.0 / 255.0));
     }
     for (const std::uint32_t column : {1u << 30, 2147483000u, 2147483520u})
-        CHECK_THROWS_WITH(read(column),
-                          ContainsSubstring("its pixels are too far from the picture's corner"));
+        CHECK_THROWS_WITH(read(column), ContainsSubstring("its pixels are too far from the image's corner"));
 }
 
 TEST_CASE("images can be moved", "[unit][image]")

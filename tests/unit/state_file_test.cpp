@@ -69,7 +69,7 @@ std::string problem(const std::filesystem::path& path)
         read_state(path);
     } catch (const Error& error) {
         const std::string text = error.what();
-        const std::string start = "cannot go on from '" + path.string() + "': ";
+        const std::string start = "cannot resume from '" + path.string() + "': ";
         REQUIRE(text.substr(0, start.size()) == start);
         return text.substr(start.size());
     }
@@ -196,7 +196,7 @@ TEST_CASE("a damaged state file is found out", "[unit][state_file]")
     {
         Image image(4, 4);
         write_image(directory / "picture.exr", image);
-        CHECK(problem(directory / "picture.exr") == "it is no checkpoint and no part of a picture");
+        CHECK(problem(directory / "picture.exr") == "it is not a checkpoint or a partial render");
         CHECK(problem(directory / "none.exr") == "no such file");
         CHECK(problem(directory.path()) == "it is a directory");
     }

@@ -38,7 +38,7 @@ LoadedScene load_scene_of(const SuiteEntry& entry, Options options)
     if (!fs::exists(entry.scene, ignored)) {
         const Diagnostic missing{
             Severity::error, entry.scene_at,
-            fmt::format("there is no scene file '{}'{}", entry.scene.string(), entry.scene_way_out)};
+            fmt::format("scene file '{}' does not exist{}", entry.scene.string(), entry.scene_way_out)};
         throw SceneError({missing});
     }
     options.quiet = true;
@@ -110,7 +110,7 @@ void compare_with_reference(const BatchJob& job, const Options& run, const Image
     if (!fs::exists(entry.reference, ignored))
         throw SceneError(
             {Diagnostic{Severity::error, entry.reference_at,
-                        fmt::format("there is no reference '{}'; 'renderer batch {} --update' makes it",
+                        fmt::format("reference '{}' does not exist; 'renderer batch {} --update' makes it",
                                     entry.reference.string(), run.subject)}});
     const Image reference = read_image(entry.reference, true);
     std::vector<std::string> words = {"compare", result.picture, entry.reference.string()};
@@ -153,7 +153,7 @@ std::string counted_title(const SuiteEntry& entry, const LoadedScene& scene, std
     if (!taken.insert(title).second)
         throw SceneError({Diagnostic{
             Severity::error, entry.at,
-            fmt::format("another entry writes '{}.exr', too; give one of them another name", title)}});
+            fmt::format("another entry also writes '{}.exr'; give one of them another name", title)}});
     return title;
 }
 
@@ -164,7 +164,8 @@ void make_directory(const fs::path& directory)
     std::error_code problem;
     if (!directory.empty()) fs::create_directories(directory, problem);
     if (problem)
-        throw Error(fmt::format("cannot make the directory '{}': {}", directory.string(), problem.message()));
+        throw Error(
+            fmt::format("cannot create the directory '{}': {}", directory.string(), problem.message()));
 }
 
 BatchResult run_entry(const BatchJob& job, BatchContext& context)
