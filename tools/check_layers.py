@@ -13,7 +13,7 @@ import sys
 from pathlib import Path
 
 # From the bottom to the top.
-LAYERS = ["math", "core", "interfaces", "plugins", "scene", "integrators", "render", "check", "scene_file",
+LAYERS = ["math", "core", "interfaces", "plugins", "scene", "integrators", "render", "settings", "check", "scene_file",
           "course_tests", "compare", "cli"]
 
 # include/plumb/NAME.h, and src/**/NAME.cpp beside it, belong to a layer by name.
@@ -24,6 +24,7 @@ HEADERS = {
     "interfaces": "bsdf camera emitter filter integrator params sampler shape surface texture",
     "scene": "instruction_set light_tree scene tracer",
     "render": "evidence film render sample_set state_file stop_rules",
+    "settings": "compare_settings render_settings settings settings_header",
     "check": "check",
     "scene_file": "load scene_file suite test_file",
     "course_tests": "course_test",
@@ -45,6 +46,7 @@ FOLDERS = {
     "src/scene": "scene",
     "src/integrators": "integrators",
     "src/render": "render",
+    "src/settings": "settings",
     "src/scene_file": "scene_file",
     "src/course_tests": "course_tests",
     "src/check": "check",

@@ -44,9 +44,9 @@ std::string_view check_manual()
            "Exit code: 0 nothing, 1 errors, 2 wrong usage, 3 doubts.\n";
 }
 
-int check_command(const Options& options)
+int check_command(const SceneRequest& request)
 {
-    const LoadedScene scene = load_and_log(options);
+    const LoadedScene scene = load_and_log(request);
     ImageLibrary::hash(); // is loaded, since rendering takes its memory, too
     const std::string memory = memory_text(scene);
     const std::vector<Doubt> doubts = find_doubts(scene.job);
@@ -54,7 +54,7 @@ int check_command(const Options& options)
     for (const Doubt& doubt : doubts)
         print_output(fmt::format("{}{}{}\n", visible_text(doubt.object), doubt.object.empty() ? "" : ": ",
                                  visible_text(doubt.text)));
-    if (!options.quiet) {
+    if (!request.quiet) {
         print_output(memory + "\n");
         if (is_clean) print_output("nothing is wrong or doubtful\n");
     }

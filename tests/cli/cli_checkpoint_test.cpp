@@ -105,7 +105,7 @@ TEST_CASE("a checkpoint of another rendering is refused with the reason", "[cli]
           "was "
           "avx2 and is sse4.2\n");
     CHECK(refusal({"scene.xml", "--size", "20x20"}) ==
-          "error: cannot go on from 'c.exr': the options are not the same\n");
+          "error: cannot go on from 'c.exr': the resolution was the default and is 20x20\n");
     CHECK(refusal({"scene.xml", "--crop", "0,0,8,8"}) ==
           "error: cannot go on from 'c.exr': it has the pixels 0,0,48,36, not 0,0,8,8\n");
     CHECK(refusal({"scene.xml", "--spp", "2"}) ==

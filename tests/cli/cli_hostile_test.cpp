@@ -12,6 +12,7 @@
 #include "io/temporary_file.h"
 #include "plumb/error.h"
 #include "plumb/hash.h"
+#include "plumb/settings_header.h"
 #include "plumb/state_file.h"
 #include "support/catch.h"
 
@@ -118,6 +119,13 @@ void set(Metadata& header, const std::string& name, MetadataValue value)
     header.emplace_back(name, std::move(value));
 }
 
+// As Plumb 0.1 wrote its settings.
+void set_arguments(Metadata& header, const std::string& arguments)
+{
+    std::erase_if(header, [](const auto& entry) { return is_settings_entry(entry.first); });
+    set(header, "plumb:arguments", arguments);
+}
+
 // A small picture, and a state file of half of it.
 struct HostileFolder : TempFolder {
     HostileFolder()
@@ -141,9 +149,10 @@ struct HostileFolder : TempFolder {
 // What header.h lists, with what the picture at hand does not have.
 std::vector<std::string> picture_keys(const Metadata& header)
 {
-    std::vector<std::string> keys = {"plumb:arguments",    "plumb:samplesTaken", "plumb:stop",
-                                     "plumb:biases",       "plumb:model",        "plumb:errorBars",
-                                     "plumb:samplerTotal", "plumb:definitions",  "plumb:leftOutFirst"};
+    std::vector<std::string> keys = {"plumb:arguments",   "plumb:set.define",   "plumb:set.output",
+                                     "plumb:stop",        "plumb:samplesTaken", "plumb:biases",
+                                     "plumb:model",       "plumb:errorBars",    "plumb:samplerTotal",
+                                     "plumb:definitions", "plumb:leftOutFirst"};
     for (const auto& [name, value] : header)
         if ((name.starts_with("plumb:") || name == "Software" || name == "worldToCamera") &&
             std::find(keys.begin(), keys.end(), name) == keys.end())
@@ -281,11 +290,10 @@ TEST_CASE("options in a header that do not change the picture are refused", "[cl
           "--json stolen.exr", "--bogus", "'", "--help", "--version", "--threads 1000", "--quiet",
           "other.xml", "-- other.xml"}) {
         Image bad = read_image(folder / "good.exr", false);
-        set(bad.metadata, "plumb:arguments", std::string(arguments));
+        set_arguments(bad.metadata, arguments);
         write_image(folder / "bad.exr", bad);
-        forge_state(folder / "good.state.exr", folder / "bad.state.exr", [&](WordImage& image, auto&) {
-            set(image.metadata, "plumb:arguments", std::string(arguments));
-        });
+        forge_state(folder / "good.state.exr", folder / "bad.state.exr",
+                    [&](WordImage& image, auto&) { set_arguments(image.metadata, arguments); });
         INFO(arguments);
         for (const Names& words :
              {Names{"rerun", "(bad.exr)", "-o", "(again.exr)"},
@@ -294,6 +302,52 @@ TEST_CASE("options in a header that do not change the picture are refused", "[cl
             CHECK(outcome.code == 1);
             check_outcome(folder, outcome, words[1].substr(1, words[1].size() - 2));
             CHECK_THAT(outcome.said, ContainsSubstring("makes no sense: plumb:arguments: "));
+            CHECK_FALSE(std::filesystem::exists(folder / "again.exr"));
+        }
+    }
+}
+
+TEST_CASE("the options in headers of Plumb 0.1 are read and written as settings", "[cli][hostile]")
+{
+    const HostileFolder folder;
+    const std::string arguments = "--size 8x6 --spp 4";
+    Image old = read_image(folder / "good.exr", false);
+    set_arguments(old.metadata, arguments);
+    write_image(folder / "old.exr", old);
+    REQUIRE(folder.run({"rerun", "(old.exr)", "-o", "(again.exr)"}).code == 0);
+    CHECK(read_bytes(folder / "again.exr") == read_bytes(folder / "good.exr"));
+
+    forge_state(folder / "good.state.exr", folder / "old.state.exr",
+                [&](WordImage& image, auto&) { set_arguments(image.metadata, arguments); });
+    const auto merged = [&](const char* part, const char* picture) {
+        REQUIRE(folder.run({"merge", part, "--allow-missing", "-o", picture}).code == 0);
+        return read_bytes(folder / std::string(picture).substr(1, std::string(picture).size() - 2));
+    };
+    CHECK(merged("(old.state.exr)", "(a.exr)") == merged("(good.state.exr)", "(b.exr)"));
+}
+
+TEST_CASE("settings in a header that are none of a picture are refused", "[cli][hostile]")
+{
+    const HostileFolder folder;
+    for (const auto& [name, value, problem] : std::vector<std::tuple<const char*, const char*, const char*>>{
+             {"plumb:set.output", "stolen.exr", "plumb:set.output is no setting of a picture"},
+             {"plumb:set.spp", "0", "plumb:set.spp must be an integer from 1 to 67108864, not '0'"},
+             {"plumb:settings", "2", "plumb:settings must be an integer from 2"},
+             {"plumb:arguments", "--spp 4", "plumb:settings and plumb:arguments exclude each other"}}) {
+        Image bad = read_image(folder / "good.exr", false);
+        set(bad.metadata, name, std::string(value));
+        write_image(folder / "bad.exr", bad);
+        forge_state(folder / "good.state.exr", folder / "bad.state.exr",
+                    [&, key = name, text = value](WordImage& image, auto&) {
+                        set(image.metadata, key, std::string(text));
+                    });
+        for (const Names& words :
+             {Names{"rerun", "(bad.exr)", "-o", "(again.exr)"},
+              Names{"merge", "(bad.state.exr)", "-o", "(again.exr)", "--allow-missing"}}) {
+            const Outcome outcome = folder.run(words);
+            CHECK(outcome.code == 1);
+            check_outcome(folder, outcome, words[1].substr(1, words[1].size() - 2));
+            CHECK_THAT(outcome.said, ContainsSubstring(std::string("makes no sense: ") + problem));
             CHECK_FALSE(std::filesystem::exists(folder / "again.exr"));
         }
     }
