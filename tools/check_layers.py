@@ -12,78 +12,52 @@ import re
 import sys
 from pathlib import Path
 
-# From the bottom to the top.
-LAYERS = ["math", "core", "interfaces", "plugins", "scene", "integrators", "render", "settings", "check", "scene_file",
-          "course_tests", "compare", "cli"]
-
-# include/plumb/NAME.h, and src/**/NAME.cpp beside it, belong to a layer by name.
-HEADERS = {
-    "math": "math color direction_cone elementary frame ray transform",
-    "core": "dialect distribution error fixed_point fresnel hash image intersection mean_and_variance mesh microfacet "
-            "sampling statistics version",
-    "interfaces": "bsdf camera emitter filter integrator params sampler shape surface texture",
-    "scene": "instruction_set light_tree scene tracer",
-    "render": "evidence film render sample_set state_file stop_rules",
-    "settings": "compare_settings render_settings settings settings_header",
-    "check": "check",
-    "scene_file": "load scene_file suite test_file",
-    "course_tests": "course_test",
-    "compare": "compare flip",
-}
-
-# Files below src/ belong to a layer by folder. An inner folder goes before the one around it.
-FOLDERS = {
-    "src/core": "core",
-    "src/io": "core",
-    "src/interfaces": "interfaces",
-    "src/shapes": "plugins",
-    "src/textures": "plugins",
-    "src/bsdfs": "plugins",
-    "src/emitters": "plugins",
-    "src/cameras": "plugins",
-    "src/samplers": "plugins",
-    "src/filters": "plugins",
-    "src/scene": "scene",
-    "src/integrators": "integrators",
-    "src/render": "render",
-    "src/settings": "settings",
-    "src/scene_file": "scene_file",
-    "src/course_tests": "course_tests",
-    "src/check": "check",
-    "src/compare": "compare",
-    "src/cli": "cli",
-    "src/math": "math",
-}
+# Rooms: the folders of include/plumb/ and of src/, from the bottom to the top. Rooms of one line are of one layer.
+LAYERS = [
+    ["base"],
+    ["math"],
+    ["sampling", "statistics"],
+    ["image"],
+    ["model"],
+    ["shapes", "textures", "bsdfs", "emitters", "cameras", "samplers", "filters"],
+    ["scene"],
+    ["integrators"],
+    ["render"],
+    ["settings"],
+    ["check"],
+    ["scene_file"],
+    ["suite_file", "test_file"],
+    ["estimator_checks"],
+    ["compare"],
+    ["cli"],
+]
 
 # Library: what its includes look like, and the only files that have them (patterns as in pathlib's match).
 DOORS = {
     "Embree": (r"embree[34]?/", ["src/scene/accel*.cpp"]),
-    "OpenImageIO": (r"OpenImageIO/", ["src/io/oiio/*"]),
-    "OpenEXR": (r"OpenEXR/|Imf|Iex|IlmThread", ["src/io/oiio/*.cpp"]),
-    "tinyobjloader": (r"tiny_?obj", ["src/io/obj*.cpp"]),
+    "OpenImageIO": (r"OpenImageIO/", ["src/image/oiio/*"]),
+    "OpenEXR": (r"OpenEXR/|Imf|Iex|IlmThread", ["src/image/oiio/*.cpp"]),
+    "tinyobjloader": (r"tiny_?obj", ["src/shapes/obj/*.cpp"]),
     "pugixml": (r"pugi", ["src/scene_file/document*.cpp"]),
-    "oneTBB": (r"(oneapi/)?tbb(/|\.h)", ["src/render/render*.cpp", "src/core/parallel*.cpp"]),
-    "OpenSSL": (r"openssl/", ["src/core/sha256.cpp"]),
+    "oneTBB": (r"(oneapi/)?tbb(/|\.h)", ["src/render/render*.cpp", "src/base/parallel*.cpp"]),
+    "OpenSSL": (r"openssl/", ["src/base/sha256.cpp"]),
     "CLI11": (r"CLI/", ["src/cli/options*.cpp"]),
-    "Imath": (r"Imath", ["include/plumb/math.h", "include/plumb/transform.h"]),
+    "Imath": (r"Imath", ["include/plumb/math/math.h", "include/plumb/math/transform.h"]),
 }
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 
 
-def layer_of_header(name):
-    for layer, names in HEADERS.items():
-        if name in names.split():
-            return layer
-    return None
+def room_of(path):
+    """The room of a file (a Path relative to the root); None where there is none."""
+    start = 2 if path.parts[:2] == ("include", "plumb") else 1
+    return path.parts[start] if len(path.parts) > start + 1 else None
 
 
 def layer_of(path):
-    """The layer of a file (a Path relative to the root); None if the tables do not know it."""
-    if path.parts[:2] == ("include", "plumb"):
-        return layer_of_header(path.stem) if len(path.parts) == 3 else None
-    folders = [folder for folder in FOLDERS if path.is_relative_to(folder)]
-    return FOLDERS[max(folders, key=len)] if folders else None
+    """The layer of a file, counted from the bottom; None if its folder is in none."""
+    room = room_of(path)
+    return next((i for i, rooms in enumerate(LAYERS) if room in rooms), None)
 
 
 def resolve(root, source, name):
@@ -104,7 +78,7 @@ def resolve(root, source, name):
 def check_file(root, path):
     own = layer_of(path)
     if own is None:
-        yield 1, ("this file is in no layer; add it to HEADERS or FOLDERS in tools/check_layers.py")
+        yield 1, "this file's folder is in no layer; add it to LAYERS in tools/check_layers.py"
     for number, line in enumerate((root / path).read_text(encoding="utf-8").splitlines(), start=1):
         match = INCLUDE.match(line)
         if not match:
@@ -122,8 +96,8 @@ def check_file(root, path):
                     yield number, f"there is no file '{name}' in include/, in src/ or beside this one"
             continue
         other = layer_of(target)
-        if own and other and LAYERS.index(other) > LAYERS.index(own):
-            yield number, f"layer '{own}' may not include '{name}' of the higher layer '{other}'"
+        if own is not None and other is not None and other > own:
+            yield number, f"'{room_of(path)}' may not include '{name}' of the higher layer '{room_of(target)}'"
 
 
 def main():

@@ -61,7 +61,7 @@ struct Triangles final : AccelBuilder {
                 lamps.push_back({p[triangle[0]], edge1, edge2, normalize(normal), 0.5f * length(normal)});
         }
     }
-    void add_sphere(const Vec3f&, float) override {}
+    void add_user(const Primitives&) override {}
 };
 
 // PCG's multiplier and an output permutation of the high bits.

@@ -35,7 +35,7 @@ say_what_is_needed() {
     say "Plumb needs a C++20 compiler, CMake 3.22 and Ninja, and these libraries with their headers:"
     say "    Embree 3.13 or 4, OpenImageIO, OpenEXR, Imath 3, tinyobjloader, pugixml, oneTBB, CLI11, fmt, OpenSSL 1.1 or 3, Catch2 2 or 3"
     say "In Debian 12 and 13 they are: ${plumb_packages[*]}"
-    say "Once they are there: PLUMB_SKIP_INSTALL=1 $0 ..."
+    say "When they are installed: PLUMB_SKIP_INSTALL=1 $0 ..."
 }
 
 # Runs a command with its output in a file; shows the file only if the command fails.
@@ -62,11 +62,11 @@ install_packages() {
     local as_root=()
     if ((EUID != 0)); then
         command -v sudo >/dev/null ||
-            die "these packages are missing, and installing them takes root or sudo: ${missing[*]}"
+            die "these packages are missing, and installing them needs root or sudo: ${missing[*]}"
         as_root=(sudo)
     fi
     as_root+=(env DEBIAN_FRONTEND=noninteractive)
-    say "installing with apt-get, with what they depend on: ${missing[*]}"
+    say "installing with apt-get, including dependencies: ${missing[*]}"
 
     local install=("${as_root[@]}" apt-get install --yes --no-install-recommends "${missing[@]}")
     local fresh
@@ -84,7 +84,7 @@ install_packages() {
 # Every file of the tree that git would keep, or, without git, every file outside the build folders; from the folder
 # above tools/, each ends with a zero.
 tree_files() (
-    cd -- "$plumb_root"
+    cd -- "$plumb_root" || return
     if command -v git >/dev/null && [[ $(git rev-parse --show-toplevel 2>/dev/null) -ef . ]]; then
         git ls-files --cached --others --exclude-standard -z
     else
@@ -96,8 +96,8 @@ tree_files() (
 build_folder() {
     case $1 in
         release) printf '%s\n' "$plumb_root/build" ;;
-        dev | debug | asan | arm64 | fuzz) printf '%s\n' "$plumb_root/build-$1" ;;
-        *) die "unknown preset '$1': release, dev, debug, asan, arm64 or fuzz" ;;
+        dev | debug | asan | arm64 | fuzz | coverage) printf '%s\n' "$plumb_root/build-$1" ;;
+        *) die "unknown preset '$1': release, dev, debug, asan, arm64, fuzz or coverage" ;;
     esac
 }
 
@@ -110,10 +110,10 @@ build() {
         # One build at a time in one folder. The file is open in this subshell only.
         exec 9>"$folder/.lock"
         ! command -v flock >/dev/null || flock 9
-        cd -- "$plumb_root"
+        cd -- "$plumb_root" || exit
         local cache=$folder/CMakeCache.txt
         if [[ -f $cache ]] && ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$plumb_root" "$cache"; then
-            say "$folder was configured for another folder; starting again"
+            say "$folder was configured for another directory; starting again"
             rm -rf -- "$cache" "$folder/CMakeFiles" "$folder/build.ninja"
         fi
         [[ -f $folder/build.ninja ]] ||

@@ -58,14 +58,27 @@ struct BsdfSample {
 // Radiance is transported: refraction scales it by (eta_i / eta_t)^2 in the value (Veach 1997, section 5.2).
 //
 // For every wo from sample() that is not delta: weight * pdf equals evaluate(wi, wo).f_cos and the pdfs agree.
+// f = 0 for wo below the shading normal, on the other side than wi, unless a lobe transmits: light sampling does not look
+// there (integrators/vertex.h). A BSDF that bends the normal therefore is black for directions that lie on different
+// sides of the shading normal and of its own; its density is 0 there, too, and is not scaled up elsewhere.
+//
 // Nothing, from sample(): the path ends here (absorbed, or wi on a side that does not reflect).
 class Bsdf {
 public:
     virtual ~Bsdf() = default;
     virtual Lobes lobes() const = 0;
+    // Whether s of the shading frame must run along dp/du (shape.h), for normal maps and anisotropy.
+    virtual bool is_oriented() const { return false; }
+    // Whether light is reflected or transmitted behind the surface as well; else it is black from there.
+    virtual bool has_back() const { return lobes().has_any(transmission_lobes); }
+    // Whether f(wi, wo) / eta_i^2 = f(wo, wi) / eta_o^2 (Veach 1997, equation 5.14). Not so for bent normals.
+    virtual bool is_reciprocal() const { return true; }
     virtual BsdfValue evaluate(const SurfacePoint& at, const Vec3f& wi, const Vec3f& wo) const = 0;
     virtual std::optional<BsdfSample> sample(const SurfacePoint& at, const Vec3f& wi, float u_lobe,
                                              const Vec2f& u) const = 0;
+    // What fraction of light from wi's direction leaves again, for people and denoisers: the mean weight of samples of a fixed
+    // pattern, without the scale of refracted radiance, unless a BSDF knows it. Deterministic.
+    virtual Color albedo(const SurfacePoint& at, const Vec3f& wi) const;
 };
 
 } // namespace plumb

@@ -118,7 +118,7 @@ double metric_value(const Metrics& metrics, std::string_view name);
 
 // |a - b| (the largest of the channels), or the FLIP map of a comparison that has one, in false colours above a bar
 // with its scale, as linear colours to be written as .png. Pixels that are not finite are green.
-Image difference_image(const Image& a, const Image& b);
+Image difference_image(const Image& a, const Image& b, const std::string& layer = {});
 Image flip_image(const Comparison& comparison);
 
 } // namespace plumb

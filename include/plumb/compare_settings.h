@@ -23,12 +23,13 @@ struct Threshold {
 };
 
 struct CompareSettings {
+    std::string layer = {};         // compare the channels LAYER.*, at most three; empty: R, G and B, or Y
     double significance = 0.01;     // the chance to say "differs" of two pictures with the same expectation
     bool verdict = true;            // look at the noise at all
     std::optional<Side> exact = {}; // this picture has no noise
     double fail_percent = 0.0;      // of the pixels may differ, or stay undecided
     double rounding = 1e-5;         // relative difference of means that floats may make; no setting of a user
-    std::optional<FlipMode> flip = {}; // absent: hdr, and for two files made for screens ldr
+    std::optional<FlipMode> flip = {}; // absent: hdr; for two files made for screens ldr; of a layer none
     std::vector<Threshold> thresholds = {};
     friend bool operator==(const CompareSettings&, const CompareSettings&) = default;
 };

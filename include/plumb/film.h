@@ -11,7 +11,11 @@
 //
 // For the error bars there is also the sum of the samples' squares, in the same units and as exact; the squares of samples
 // of 2^18 and more, which few pictures have, are kept in a table aside, in units of 2^-20. 112 bytes a pixel.
+//
+// A film may have more channels than beauty: its layers (channel_set.h), which are part of what it is. They cost memory and
+// time only where there are some.
 
+#include "plumb/channel_set.h"
 #include "plumb/color.h"
 #include "plumb/image.h"
 #include "plumb/sampler.h"
@@ -32,22 +36,29 @@ inline constexpr std::uint64_t film_max_samples = max_samples_per_pixel;
 inline constexpr std::size_t film_bytes_per_pixel = 112;
 
 // What an image holds: R, G and B, or also variance.R, variance.G and variance.B (Film::variance_of_mean) and
-// contributing (Film::contributing_count).
+// contributing (Film::contributing_count). After them come the film's layers.
 enum class Channels { color, color_and_evidence };
+
+class LayerSums;
 
 class Film {
 public:
-    // window: the pixels kept, of a picture of full_width x full_height. Throws Error if memory is short.
-    Film(PixelRect window, int full_width, int full_height);
+    // window: the pixels kept, of a picture of full_width x full_height. Throws Error if memory is short or if there are more
+    // than max_layers.
+    Film(PixelRect window, int full_width, int full_height, ChannelSet layers = {});
     Film(Film&&) noexcept;
     Film& operator=(Film&&) noexcept;
     ~Film();
 
     const PixelRect& window() const { return window_; }
+    const ChannelSet& layers() const;
 
     // pixel: in coordinates of the full picture. weight: the filter's. Different pixels from different threads; one
     // pixel from one thread at a time.
     Verdict add(Vec2i pixel, const Color& radiance, float weight);
+    // The same, and what the layers have of the sample if it is accepted. index: the sample's, of the pixel.
+    Verdict add(Vec2i pixel, const Color& radiance, float weight, const LayerSample& layers,
+                std::uint64_t index);
 
     std::uint64_t sample_count(Vec2i pixel) const;       // accepted ones
     std::uint64_t contributing_count(Vec2i pixel) const; // those of them that were not black
@@ -58,7 +69,8 @@ public:
     // Mean of the accepted samples; black where there is none.
     Image develop(Channels channels = Channels::color) const;
 
-    // Adds what another film of the same window has: the film of all the samples of both, bit for bit.
+    // Adds what another film of the same window has: the film of all the samples of both, bit for bit. Throws Error, and adds
+    // nothing, if their layers differ.
     Film& operator+=(const Film& other);
 
     // All that is known of a pixel, as 32-bit words, for files: sums and sums of squares of red, green and blue in units of
@@ -71,6 +83,12 @@ public:
     bool has_large_squares() const;
     LargeWords large_words(Vec2i pixel) const;
     void set_large_words(Vec2i pixel, const LargeWords& words);
+    // The same for the layers: as many as there are names, which tell what they are.
+    std::vector<std::string> layer_word_names() const;
+    void layer_words(Vec2i pixel, std::span<std::uint32_t> words) const;
+    void set_layer_words(Vec2i pixel, std::span<const std::uint32_t> words);
+    // Whether so many accepted samples can have these words.
+    bool can_have_layer_words(std::span<const std::uint32_t> words, std::uint64_t samples) const;
 
 private:
     __extension__ typedef __int128 Sum;
@@ -91,6 +109,7 @@ private:
     int full_height_;
     std::vector<Pixel> pixels_;
     std::unique_ptr<LargeSquares> large_squares_;
+    std::unique_ptr<LayerSums> layers_; // null if there are none
 };
 
 } // namespace plumb

@@ -24,6 +24,18 @@ struct Frame {
         t = Vec3f(b, sign + n.y * n.y * a, -n.y);
     }
 
+    // s points as far along `along` as a right angle to the normal allows; where that has no meaning (parallel, zero or
+    // not finite), it is any direction. normal: unit length; along: any length.
+    Frame(const Vec3f& normal, const Vec3f& along) : Frame(normal)
+    {
+        constexpr float parallel_below = 1e-12f; // squared sine of the angle
+        const Vec3f projected = along - normal * dot(along, normal);
+        const float size = dot(projected, projected);
+        if (!(size > parallel_below * dot(along, along)) || !(size < infinity)) return;
+        s = normalize(projected);
+        t = cross(normal, s);
+    }
+
     Vec3f to_local(const Vec3f& v) const { return {dot(v, s), dot(v, t), dot(v, n)}; }
     Vec3f to_world(const Vec3f& v) const { return s * v.x + t * v.y + n * v.z; }
 };

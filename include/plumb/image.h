@@ -66,10 +66,10 @@ private:
 // curve for 8-bit and 16-bit integer formats (floating-point formats are linear). Throws Error naming the file.
 Image read_image(const std::filesystem::path& path, bool decode_srgb);
 
-// Channels of a rendered picture that say how sure it is (film.h), not how it looks: "variance.*" and "contributing".
-inline bool is_evidence_channel(const std::string& name)
+// Channels of a rendered picture that do not say how it looks: those of layers, "variance.R" or "normal.X", and "contributing".
+inline bool is_layer_channel(const std::string& name)
 {
-    return name.starts_with("variance.") || name == "contributing";
+    return name.find('.') != std::string::npos || name == "contributing";
 }
 
 // How a picture is compressed, without loss: fast takes a sixth of the time of small for an .exr, which gets some 12 % larger
@@ -78,7 +78,7 @@ enum class Packing { small, fast };
 
 // Writes by extension: .exr (32-bit float, ZIP or, fast, RLE, data and display window), .hdr, .tif/.tiff (float), .png and .jpg
 // (8-bit sRGB after multiplying by 2^exposure; clamped, rounded). The file appears whole or not at all: it is
-// written beside `path` and renamed. Metadata goes into formats that can hold it; so do channels of evidence, which must be
+// written beside `path` and renamed. Metadata goes into formats that can hold it; so do channels of layers, which must be
 // the last ones (.exr only). Same image, same bytes.
 void write_image(const std::filesystem::path& path, const Image& image, float exposure = 0.f,
                  Packing packing = Packing::small);

@@ -25,8 +25,9 @@
 
 namespace plumb {
 
-class Shape;
+class Bsdf;
 class Filter;
+class Shape;
 
 // One parameter of an element, as the file gave it.
 struct Property {
@@ -67,6 +68,13 @@ struct TextureChild {
     mutable bool asked = false;
 };
 
+// A child object that is a BSDF. Known by its place among the others: the order of the file decides.
+struct BsdfChild {
+    std::shared_ptr<const Bsdf> bsdf; // null: it could not be made, which has been reported
+    SourceLocation at;
+    mutable bool asked = false;
+};
+
 class Params {
 public:
     Params(std::string kind, std::string type, SourceLocation element_at, Diagnostics& diagnostics,
@@ -75,6 +83,7 @@ public:
     // Filled by the loader (and by tests).
     void add(std::string name, Property property);
     void add_texture(TextureChild child) { textures_.push_back(std::move(child)); }
+    void add_bsdf(BsdfChild child) { bsdfs_.push_back(std::move(child)); }
     void set_parent_shape(const Shape* shape) { parent_shape_ = shape; }
     void set_lenient(bool lenient) { lenient_ = lenient; }
 
@@ -103,6 +112,11 @@ public:
                                            Range range = Range::at_least(0.0)) const;
     std::shared_ptr<const Texture> scalar_texture(std::string_view name, float fallback, Range range) const;
 
+    // The i-th child BSDF in the order of the file. Never null: where there is none, which is an error, or where it could not
+    // be made, a black one. Whoever asks for more than one asks for their count first.
+    std::shared_ptr<const Bsdf> bsdf(std::size_t i) const;
+    std::size_t bsdf_count() const { return bsdfs_.size(); }
+
     const Shape* parent_shape() const { return parent_shape_; }
     const Dialect& dialect() const { return dialect_; }
     const std::string& type() const { return type_; }
@@ -110,6 +124,7 @@ public:
     // Errors and warnings at the value of parameter `name`, or at the element where it is absent. The message of an
     // error follows the parameter's name: fail("alpha", "must be ...") says "alpha must be ...".
     void fail(std::string_view name, std::string message) const;
+    void fail_bsdf(std::size_t i, std::string message) const;    // at the i-th child BSDF, which is there
     void warn(std::string_view name, std::string message) const; // the message stands alone
     // A parameter that files carry and we do not read: accepted; with a warning unless the message is empty.
     void ignore(std::string_view name, std::string message = {}) const;
@@ -127,6 +142,7 @@ private:
     std::shared_ptr<const Texture> texture_child(std::string_view name, const Range& range) const;
     Vec3f three_numbers(const Property* property, std::string_view name, const Vec3f& fallback) const;
     const SourceLocation& value_place(std::string_view name) const;
+    void reject_unused_bsdfs() const;
     void fail_missing(std::string_view name, std::string_view tag) const;
 
     std::string kind_;
@@ -137,6 +153,7 @@ private:
     std::filesystem::path folder_;
     std::map<std::string, Property, std::less<>> properties_;
     std::vector<TextureChild> textures_;
+    std::vector<BsdfChild> bsdfs_;
     const Shape* parent_shape_ = nullptr;
     bool lenient_ = false;
     mutable std::vector<std::string> asked_;

@@ -14,6 +14,8 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace plumb {
 
@@ -32,6 +34,7 @@ struct RenderOptions {
     int threads = 0;               // 0: all
     int tile_size = 32;            // pixels; changes no bit of the picture
     std::optional<PixelRect> crop; // inside the picture
+    std::vector<std::string> aovs; // names of layers: aovs.h
 };
 
 // Samples that were left out of the film. `first` is the smallest in the order (row, column, sample index).
@@ -83,9 +86,9 @@ int render_threads(const RenderOptions& options);
 // threads, tiles, crop, or the order and the calls in which they are taken.
 class Rendering {
 public:
-    // The job must outlive it. Throws what render_window() throws, and Error if memory is short.
+    // The job must outlive it. Throws what render_window() and Aovs throw, and Error if memory is short.
     Rendering(const RenderJob& job, const RenderOptions& options);
-    // Goes on from a state of the same job, seed and window.
+    // Goes on from a state of the same job, seed and window. Throws Error if it does not have the layers of options.aovs.
     Rendering(const RenderJob& job, const RenderOptions& options, RenderState state);
     Rendering(const Rendering&) = delete;
     Rendering& operator=(const Rendering&) = delete;

@@ -13,6 +13,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace plumb {
 
@@ -37,6 +38,7 @@ struct MethodSettings {
 struct ViewSettings {
     std::optional<Vec2i> size = {}; // pixels
     std::optional<PixelRect> crop = {};
+    std::vector<std::string> aovs = {}; // names of layers: aovs.h
     friend bool operator==(const ViewSettings&, const ViewSettings&) = default;
 };
 

@@ -14,10 +14,11 @@
 
 namespace plumb {
 
-// A shape, what it is made of, and the light it gives. bsdf is never null; emitter may be.
+// A shape, what it is made of, and the light it gives. bsdf is never null, and other objects may have the same one; emitter
+// may be null.
 struct SceneObject {
     std::unique_ptr<Shape> shape;
-    std::unique_ptr<Bsdf> bsdf;
+    std::shared_ptr<const Bsdf> bsdf;
     std::unique_ptr<Emitter> emitter;
     std::string name; // "mesh 'obj' (cbox.xml:12)", for people
 };
@@ -83,15 +84,20 @@ public:
 
 private:
     class Accel;
+    // What a hit needs to know of its object.
+    struct ObjectFacts {
+        std::uint32_t emitter_index = 0; // into emitters_
+        bool is_oriented = false;        // Bsdf::is_oriented
+    };
     std::optional<EmitterSample> sample_chosen(const LightTree::Choice& choice, const LightReceiver& receiver,
                                                const Vec2f& u, Measure measure) const;
 
     SceneOptions options_;
     std::vector<SceneObject> objects_;
     std::vector<std::unique_ptr<Emitter>> lights_;
-    std::vector<const Emitter*> emitters_;         // those of objects_, then lights_
-    std::vector<std::uint32_t> emitter_of_object_; // index into emitters_
-    std::vector<std::uint32_t> infinite_;          // indices of infinite, not delta emitters
+    std::vector<const Emitter*> emitters_; // those of objects_, then lights_
+    std::vector<ObjectFacts> facts_;       // of objects_
+    std::vector<std::uint32_t> infinite_;  // indices of infinite, not delta emitters
     LightTree choice_;
     LightTree delta_choice_; // among delta emitters alone
     std::unique_ptr<Accel> accel_;

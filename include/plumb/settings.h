@@ -14,7 +14,7 @@ namespace plumb {
 // What is different if a setting is.
 enum class Effect {
     samples,  // the value of a sample
-    coverage, // which pixels, and how many samples of each
+    coverage, // which pixels and layers, and how many samples of each pixel
     stop,     // when a rendering ends before all samples are taken
     file,     // how the picture becomes a file
     verdict   // what a comparison says

@@ -4,6 +4,7 @@
 // The interface of shapes.
 
 #include "plumb/direction_cone.h"
+#include "plumb/ray.h"
 #include "plumb/surface.h"
 
 #include <array>
@@ -13,15 +14,26 @@
 
 namespace plumb {
 
+// Primitives that Embree does not know: it asks for their bounds once, and for intersections as it traces.
+class Primitives {
+public:
+    virtual ~Primitives() = default;
+    virtual std::size_t count() const = 0;
+    // World space. Whatever rounding error is in it, the caller enlarges it by one float on each side.
+    virtual Box3f bounds(std::uint32_t primitive) const = 0;
+    // The smallest t with t_min < t < t_max at which the ray meets the primitive. Called by all threads.
+    virtual std::optional<double> intersect(const Ray& ray, std::uint32_t primitive) const = 0;
+};
+
 // Receives what a shape is made of; implemented over Embree, which shapes never see. The spans must live as long
-// as the shape: they are not copied. Embree reads 16 bytes at a position, so that 4 bytes after the last one must be
+// as the shape, and so must primitives: they are not copied. Embree reads 16 bytes at a position, so that 4 bytes after the last one must be
 // readable, too.
 class AccelBuilder {
 public:
     using Triangle = std::array<std::uint32_t, 3>;
     virtual ~AccelBuilder() = default;
     virtual void add_triangles(std::span<const Vec3f> positions, std::span<const Triangle> triangles) = 0;
-    virtual void add_sphere(const Vec3f& center, float radius) = 0;
+    virtual void add_user(const Primitives& primitives) = 0;
 };
 
 // A point chosen on a shape. pdf is per unit area or per unit solid angle, as the function says.
@@ -31,6 +43,17 @@ struct alignas(16) ShapeSample {
     Vec3f normal;    // geometric, unit length, front side
     float pdf;
     Vec2f uv;
+};
+
+// How the point of a surface moves with its uv coordinates. World space; neither of unit length nor perpendicular.
+struct Tangents {
+    Vec3f dp_du{0.f};
+    Vec3f dp_dv{0.f};
+};
+
+struct Ball {
+    Vec3f center;
+    float radius = 0.f;
 };
 
 // Conventions. World space: toWorld is applied when a shape is built. The front side is the one that normals point
@@ -44,6 +67,10 @@ public:
     // The point where `ray`, which meets `primitive` according to Embree, meets it according to our own arithmetic.
     // Leaves bsdf and emitter null.
     virtual SurfacePoint surface_at(const Ray& ray, std::uint32_t primitive) const = 0;
+
+    // The derivatives by uv at a point that surface_at returned. Where uv have none (at a pole of a sphere, or where the
+    // uv of a triangle lie on a line): two directions in the surface. Parallel only on triangles without area.
+    virtual Tangents tangents(const SurfacePoint& at) const = 0;
 
     // Must be called before sample_area; shapes whose surface is never sampled keep no table for it.
     virtual void prepare_sampling() {}
@@ -61,7 +88,8 @@ public:
 
     virtual float area() const = 0;
     virtual Box3f bounds() const = 0;
-    virtual DirectionCone normals() const = 0; // holds all geometric normals
+    virtual DirectionCone normals() const = 0;                           // holds all geometric normals
+    virtual std::optional<Ball> as_ball() const { return std::nullopt; } // if its surface is that of a ball
     virtual std::uint64_t triangle_count() const { return 0; }
     virtual std::uint64_t memory_bytes() const { return 0; } // of its mesh, if it has one
 };

@@ -14,7 +14,7 @@ namespace plumb {
 enum class TestType { ttest, chi2test };
 
 struct TestedBsdf {
-    std::unique_ptr<Bsdf> bsdf;
+    std::shared_ptr<const Bsdf> bsdf;
     std::string name; // "bsdf 'diffuse' (line 4)"
 };
 

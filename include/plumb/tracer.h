@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// One thread's view of the scene: it traces rays, counts them by kind, and for `renderer replay` keeps a log.
+// One thread's view of the scene: it traces rays, counts them by kind, and on demand notes what a camera sample sees first and,
+// for `renderer replay`, keeps a log.
 
 #include "plumb/scene.h"
 
@@ -33,9 +34,35 @@ struct PathEvent {
     std::string text;
 };
 
+// A surface that a camera sample saw, and how.
+struct SeenSurface {
+    SurfacePoint at;
+    Vec3f direction;      // of the ray that met it, of unit length
+    float distance = 0.f; // from the camera along the path
+    Color through{
+        1.f}; // what the delta bounces before it left of the light, without the scale of refracted radiance
+};
+
+// What one camera sample sees first. Every integrator that calls its rays what they are fills it in.
+struct FirstSurfaces {
+    std::optional<SeenSurface> surface; // of the camera ray
+    std::optional<SeenSurface>
+        not_delta; // the first that has other than delta lobes, or emits: seen in mirrors and through glass
+
+    void meet(const Ray& ray, RayKind kind, const SurfacePoint& hit);
+    void scatter(const Color& weight); // a path goes on from the last surface
+
+private:
+    Color through_{1.f};
+    float distance_ = 0.f;
+};
+
 class Tracer {
 public:
-    explicit Tracer(const Scene& scene, std::vector<PathEvent>* log = nullptr) : scene_(scene), log_(log) {}
+    // log, first: where the path and the first surfaces of each sample are to be noted; null: nowhere.
+    explicit Tracer(const Scene& scene, std::vector<PathEvent>* log = nullptr, FirstSurfaces* first = nullptr)
+        : scene_(scene), log_(log), first_(first), watched_(log || first)
+    {}
 
     const Scene& scene() const { return scene_; }
     const RayCounts& counts() const { return counts_; }
@@ -43,8 +70,8 @@ public:
     std::optional<SurfacePoint> intersect(const Ray& ray, RayKind kind)
     {
         ++counts_.of(kind);
-        if (logging() || !is_traceable(ray)) [[unlikely]]
-            return intersect_with_log(ray, kind);
+        if (watched() || !is_traceable(ray)) [[unlikely]]
+            return intersect_watched(ray, kind);
         return scene_.intersect(ray);
     }
     bool occluded(const Ray& ray)
@@ -65,19 +92,23 @@ public:
     // asked for it must not count.
     bool take_failure() { return std::exchange(failed_, false); }
 
-    // The log costs one test of a pointer when nobody reads it.
+    // Whether anything is noted. One test when nobody asks.
+    bool watched() const { return watched_; }
+    FirstSurfaces* first_surfaces() const { return first_; }
     bool logging() const { return log_ != nullptr; }
     void log(PathEvent::Kind kind, std::string text);
     // A contribution to the pixel: what it is, and throughput times value.
     void log_contribution(PathEvent::Kind kind, const char* what, const Color& contribution);
 
 private:
-    std::optional<SurfacePoint> intersect_with_log(const Ray& ray, RayKind kind);
+    std::optional<SurfacePoint> intersect_watched(const Ray& ray, RayKind kind);
 
     const Scene& scene_;
     RayCounts counts_;
     bool failed_ = false;
     std::vector<PathEvent>* log_;
+    FirstSurfaces* first_;
+    bool watched_;
 };
 
 } // namespace plumb

@@ -38,6 +38,11 @@ public:
                           1.f};
     }
 
+    Color albedo(const SurfacePoint& at, const Vec3f& wi) const override
+    {
+        return wi.z > 0.f ? albedo_->color(at.uv) : Color(0.f);
+    }
+
 private:
     std::shared_ptr<const Texture> albedo_;
 };

@@ -16,8 +16,8 @@ namespace plumb {
 /// f = 28 kd / (23 pi) (1 - r0) (1 - (1 - cos_i / 2)^5) (1 - (1 - cos_o / 2)^5) + D F G / (4 cos_i cos_o): the first
 /// term after [Ashikhmin and Shirley 2000], equation 5, with r0 = ((ext - int) / (ext + int))^2; D and G after
 /// [Walter et al. 2007], equations 25 and 27, F the exact dielectric reflectance at wh . wi. If the inside has the
-/// lower index, the coat reflects totally beyond the critical angle while the base goes on shining: more light leaves
-/// than arrives, which a warning says.
+/// lower index, the coat reflects totally beyond the critical angle while the base still shines: more light leaves than
+/// arrives, and a warning says so.
 ///
 ///     alpha    float or texture   roughness, in (0, 1]; less than 0.0001 counts as 0.0001   (default 0.1)
 ///     intIOR   float              index of refraction inside, in [0.01, 100]                (default 1.5046)

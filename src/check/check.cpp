@@ -34,7 +34,7 @@ public:
     std::vector<Doubt> doubts()
     {
         if (scene_.emitters().empty() && job_.integrator->needs_lamps())
-            add({}, "there is no light: the picture will be black");
+            add({}, "there is no light: the image will be black");
         find_facts();
         for (std::size_t i = 0; i < facts_.size(); ++i) check(scene_.objects()[i], facts_[i]);
         check_camera();
@@ -85,7 +85,7 @@ private:
     void check_inside(const SceneObject& object, const MeshFacts& facts)
     {
         if (facts.is_closed && facts.volume < 0.0)
-            add(object.name, "its front looks inwards, so that its inside and outside are swapped");
+            add(object.name, "its front faces inwards, so inside and outside are swapped");
         else if (!facts.is_closed && !closes_with_others(facts))
             add(object.name, "light enters its material, but the surface is not closed");
     }
@@ -99,7 +99,8 @@ private:
         const std::optional<float> reach = reach_of(object);
         constexpr float nothing = 1e-3f; // of the scene's size
         if (reach && *reach < nothing * size_)
-            add(object.name, fmt::format("it faces a wall: its light gets no further than {:.3g}", *reach));
+            add(object.name,
+                fmt::format("it faces a wall: its light reaches no farther than {:.3g}", *reach));
     }
 
     // How far the light of a lamp gets at most; nothing: out of the scene.
@@ -142,7 +143,7 @@ private:
             const double share = std::max({sum[0], sum[1], sum[2]}) / samples;
             if (share > most)
                 return add(object.name,
-                           fmt::format("its BSDF gives back {:.3g} times the light that it receives", share));
+                           fmt::format("its BSDF scatters {:.3g} times the light that it receives", share));
         }
     }
 
@@ -192,7 +193,7 @@ private:
                 const Color light = job_.integrator->radiance(tracer, *sampler_, seen.ray) * seen.weight;
                 if (!light.is_black()) return;
             }
-        add({}, fmt::format("though there {}, all of {} paths through the picture are black",
+        add({}, fmt::format("although there {}, all {} paths through the image are black",
                             scene_.emitters().size() == 1
                                 ? "is a light"
                                 : fmt::format("are {} lights", scene_.emitters().size()),

@@ -161,14 +161,14 @@ private:
     // Along x; spheres that are not the same can only meet in circles.
     void compare_spheres()
     {
-        struct Ball {
-            SurfaceTriangles::Ball shape;
+        struct ObjectBall {
+            Ball shape;
             std::size_t object;
         };
-        std::vector<Ball> balls;
+        std::vector<ObjectBall> balls;
         for (std::size_t object = 0; object < surfaces_.size(); ++object)
             if (const auto& ball = surfaces_[object].ball()) balls.push_back({*ball, object});
-        std::sort(balls.begin(), balls.end(), [](const Ball& a, const Ball& b) {
+        std::sort(balls.begin(), balls.end(), [](const ObjectBall& a, const ObjectBall& b) {
             return std::tie(a.shape.center.x, a.object) < std::tie(b.shape.center.x, b.object);
         });
         for (auto a = balls.begin(); a != balls.end(); ++a) {

@@ -47,8 +47,8 @@ public:
         for (const Coincidence& one : coincidences.found)
             if (matters(one)) doubts.push_back(doubt(one));
         if (!coincidences.is_complete)
-            doubts.push_back({"", "too many triangles lie close together to compare them all: surfaces that "
-                                  "coincide may have been missed"});
+            doubts.push_back({"", "too many triangles lie close together to compare them all: coincident "
+                                  "surfaces may have been missed"});
         return doubts;
     }
 
@@ -82,32 +82,27 @@ private:
     {
         const std::string gap = fmt::format("{:.1g}", gap_factor * one.tolerance);
         if (transmits(object(subject)))
-            return fmt::format(
-                "paths miss one of the two surfaces, so that light goes wrong ways; leave a gap of "
-                "at least {}, or let them intersect",
-                gap);
+            return fmt::format("paths miss one of the two surfaces, so light takes wrong paths; leave a gap "
+                               "of at least {}, or let them intersect",
+                               gap);
         if (object(subject).emitter && object(other).emitter && one.faces_alike)
-            return fmt::format("rays meet only one of two lamps in one place, and both are sampled, so that "
+            return fmt::format("rays hit only one of two emitters in one place, but both are sampled, so "
                                "integrators disagree; remove one, or leave a gap of at least {}",
                                gap);
         if (object(subject).emitter)
-            return fmt::format(
-                "where rays meet the other one the lamp is dark, and yet it is sampled there, so "
-                "that integrators disagree; move the lamp at least {} to its front",
-                gap);
+            return fmt::format("where rays hit the other surface the emitter is dark, yet it is sampled "
+                               "there, so integrators disagree; move the emitter at least {} to its front",
+                               gap);
         if (!one.faces_alike)
-            return fmt::format(
-                "rays meet the front of the one or the black back of the other by chance; leave a "
-                "gap of at least {}",
-                gap);
+            return fmt::format("rays hit the front of one or the black back of the other by chance; leave a "
+                               "gap of at least {}",
+                               gap);
         if (subject == other)
-            return "which of them rays meet is left to chance, which shows if their normals or texture "
-                   "coordinates "
-                   "differ";
-        return fmt::format(
-            "which of the two rays meet is left to chance, which shows if their BSDFs differ; remove "
-            "one, or leave a gap of at least {}",
-            gap);
+            return "rays hit either of them by chance, which is visible if their normals or texture "
+                   "coordinates differ";
+        return fmt::format("rays hit either of them by chance, which is visible if their BSDFs differ; "
+                           "remove one, or leave a gap of at least {}",
+                           gap);
     }
 
     const Scene& scene_;

@@ -76,10 +76,9 @@ std::optional<Doubt> doubt_of_scene(const Scene& scene)
     if (bounds.isEmpty()) return {};
     const double coordinate = largest_coordinate(bounds), size = size_of(bounds);
     if (!(size < fewest_steps_of_scene * step_at(coordinate))) return {};
-    return Doubt{
-        "", fmt::format("the scene is too far from the origin for 32-bit floats: {} its size of {:.3g}; move "
-                        "all of it, the camera too, by {}",
-                        steps_text(coordinate, size), size, offset_text(-bounds.center()))};
+    return Doubt{"", fmt::format("the scene is too far from the origin for 32-bit floats: {} its size of "
+                                 "{:.3g}; move all of it, including the camera, by {}",
+                                 steps_text(coordinate, size), size, offset_text(-bounds.center()))};
 }
 
 std::optional<Doubt> doubt_of_view(const RenderJob& job)
@@ -106,7 +105,7 @@ std::optional<Doubt> doubt_of_object(const SceneObject& object)
     const double coordinate = largest_coordinate(bounds), size = size_of(bounds);
     if (!(size < fewest_steps_of_object * step_at(coordinate))) return {};
     return Doubt{object.name,
-                 fmt::format("it is too small for 32-bit floats where it is: {} its size of {:.3g}",
+                 fmt::format("it is too small for 32-bit floats at its position: {} its size of {:.3g}",
                              steps_text(coordinate, size), size)};
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// A shape as it describes itself to the acceleration structure: triangles, or a sphere.
+// A shape as it describes itself to the acceleration structure: triangles, or a ball. Of other shapes nothing is known.
 
 #include "plumb/shape.h"
 #include "shapes/triangle.h"
@@ -13,19 +13,17 @@ namespace plumb {
 // Must not outlive the shape.
 class SurfaceTriangles final : public AccelBuilder {
 public:
-    struct Ball {
-        Vec3f center;
-        float radius = 0.f;
-    };
-
-    explicit SurfaceTriangles(const Shape& shape) : shape_(&shape) { shape.add_to(*this); }
+    explicit SurfaceTriangles(const Shape& shape) : shape_(&shape), ball_(shape.as_ball())
+    {
+        shape.add_to(*this);
+    }
 
     void add_triangles(std::span<const Vec3f> positions, std::span<const Triangle> triangles) override
     {
         positions_ = positions;
         triangles_ = triangles;
     }
-    void add_sphere(const Vec3f& center, float radius) override { ball_ = Ball{center, radius}; }
+    void add_user(const Primitives&) override {}
 
     const std::optional<Ball>& ball() const { return ball_; }
     std::size_t size() const { return triangles_.size(); }

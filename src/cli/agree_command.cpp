@@ -63,13 +63,17 @@ std::string agreement_json(const EstimatorRequest& request, const std::vector<Es
 
 std::string_view agree_manual()
 {
-    return "Renders the scene with each estimator, each with random numbers of its own and without a depth\n"
-           "cut, and compares all pairs as `renderer compare` does; the significance is that of all pairs\n"
-           "together. An error that all the estimators share - in a BSDF, the camera, a mesh - makes no\n"
-           "difference between them and is not found. Undecided: some of the light is found by so few\n"
-           "samples of an estimator that their spread says nothing. Take more, or leave it out: naive paths\n"
-           "rarely meet small lamps, samples of large lamps rarely fit surfaces that are nearly smooth.\n"
-           "Exit code: 0 they agree, 1 the scene is wrong, 2 wrong usage, 3 they differ, 4 undecided.\n";
+    return R"(Renders the scene with each estimator, and compares all pairs as
+`renderer compare` does. Each estimator has random numbers of its own and no
+depth limit. The significance is that of all pairs together. An error that all
+estimators share (in a BSDF, the camera, a mesh) cannot be detected.
+The result is undecided if so few samples of an estimator find some of the
+light that their spread says nothing. Take more samples, or omit that
+estimator: naive paths rarely meet small emitters, and light samples on large
+emitters rarely suit surfaces that are nearly smooth.
+Exit code: 0 they agree, 1 the scene is wrong, 2 wrong usage, 3 they differ,
+4 undecided.
+)";
 }
 
 int agree_command(const EstimatorRequest& request)
@@ -90,7 +94,7 @@ int agree_command(const EstimatorRequest& request)
                 fmt::format("  {}: {} samples per pixel\n", estimate.name, estimate.samples_per_pixel));
         for (const Pair& pair : pairs) print_output(pair_text(pair));
         print_output(
-            fmt::format("{}; what is wrong in all of them alike is beyond this test\n", verdict_of(outcome)));
+            fmt::format("{}; errors shared by all estimators cannot be detected\n", verdict_of(outcome)));
         if (outcome == CompareOutcome::undecided) print_output(advice(estimates, pairs));
     }
     if (!request.json.empty()) write_json(request.json, agreement_json(request, estimates, pairs));

@@ -29,7 +29,7 @@ std::vector<BatchJob> chosen(const std::vector<BatchJob>& jobs, const BatchReque
     for (const BatchJob& job : jobs)
         if (is_chosen(job.entry.title(), request.filter)) result.push_back(job);
     if (result.empty())
-        throw Error(fmt::format("no picture of '{}' has a name like '{}'; the first is {}", request.suite,
+        throw Error(fmt::format("no image of '{}' matches '{}'; the first image is {}", request.suite,
                                 request.filter, jobs.front().entry.title()));
     return result;
 }

@@ -24,7 +24,7 @@ std::string memory_text(const LoadedScene& scene)
     constexpr double picture_bytes = 7 * sizeof(float);
     const double later = static_cast<double>(size.x) * static_cast<double>(size.y) *
                          (static_cast<double>(film_bytes_per_pixel) + picture_bytes);
-    return fmt::format("memory: {:.0f} MB for the scene and the program, {:.0f} MB for film and picture",
+    return fmt::format("memory: {:.0f} MB for the scene and the program, {:.0f} MB for film and image",
                        now / megabyte, later / megabyte);
 }
 
@@ -32,16 +32,19 @@ std::string memory_text(const LoadedScene& scene)
 
 std::string_view check_manual()
 {
-    return "Says what is wrong or doubtful about a scene, without rendering it: all errors and warnings of\n"
-           "loading (triangles without area, albedos above 1, images with numbers that are none, ...); "
-           "glass\n"
-           "that is not closed or turned inside out; lamps that are black, face a wall or shine into\n"
-           "themselves; BSDFs that give back more light than they receive; a camera inside an object; a "
-           "scene\n"
-           "without light, with light that no path from the camera finds, or so far from the origin\n"
-           "that floats are too coarse for it; surfaces that lie in each other. And how much memory\n"
-           "rendering takes.\n"
-           "Exit code: 0 nothing, 1 errors, 2 wrong usage, 3 doubts.\n";
+    return R"(Checks a scene for mistakes without rendering it. Reports
+  - all errors and warnings of loading (triangles without area, albedos above
+    1, images with values that are not finite, ...);
+  - glass that is not closed or is turned inside out;
+  - emitters that are black, face a wall or shine into themselves;
+  - BSDFs that scatter more light than they receive;
+  - a camera inside an object;
+  - a scene without light, or with light that no path from the camera finds;
+  - a scene so far from the origin that floats are too coarse for it;
+  - surfaces that coincide;
+  - how much memory rendering takes.
+Exit code: 0 no mistakes found, 1 errors, 2 wrong usage, 3 likely mistakes.
+)";
 }
 
 int check_command(const SceneRequest& request)
@@ -56,7 +59,7 @@ int check_command(const SceneRequest& request)
                                  visible_text(doubt.text)));
     if (!request.quiet) {
         print_output(memory + "\n");
-        if (is_clean) print_output("nothing is wrong or doubtful\n");
+        if (is_clean) print_output("no mistakes found\n");
     }
     return is_clean ? exit_code::done : exit_code::differs;
 }

@@ -58,7 +58,7 @@ void keep_previous(const fs::path& checkpoint, const Metadata& header)
     if (!is_there(previous)) return;
     const std::optional<Metadata> there = read_state_header(previous);
     if (!there || !sample_changes(*there, header).empty())
-        throw Error(fmt::format("cannot write '{}': the state before is kept as '{}', and that is {}",
+        throw Error(fmt::format("cannot write '{}': the previous state is kept as '{}', which is {}",
                                 checkpoint.string(), previous.string(),
                                 there ? "the state of another rendering" : "another file"));
 }
@@ -90,14 +90,14 @@ std::optional<StateFile> load_checkpoint(const fs::path& path, const Metadata& h
             file.emplace(read_state(generation));
         } catch (const Error& error) {
             if (!problem.empty())
-                throw Error(fmt::format("{}; nor its previous generation: {}", problem, error.what()));
+                throw Error(fmt::format("{}; and the previous checkpoint: {}", problem, error.what()));
             problem = error.what();
             continue;
         }
         if (!problem.empty())
-            print_log(fmt::format("warning: {}; going on from '{}'", problem, generation.string()));
+            print_log(fmt::format("warning: {}; resuming from '{}'", problem, generation.string()));
         if (const auto changes = sample_changes(file->header, header); !changes.empty())
-            throw Error(fmt::format("cannot go on from '{}': {}", generation.string(), list_text(changes)));
+            throw Error(fmt::format("cannot resume from '{}': {}", generation.string(), list_text(changes)));
         break;
     }
     return file;

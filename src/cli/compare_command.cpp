@@ -28,8 +28,9 @@ void write_reports(const CompareRequest& request, const Comparison& comparison, 
                    const Image& b)
 {
     if (!request.difference.empty())
-        write_image(request.difference,
-                    request.difference_is_flip ? flip_image(comparison) : difference_image(a, b));
+        write_image(request.difference, request.difference_is_flip
+                                            ? flip_image(comparison)
+                                            : difference_image(a, b, request.how.layer));
     if (!request.json.empty())
         write_json(request.json, comparison_json(comparison, request.how, request.a, request.b));
 }
@@ -38,8 +39,10 @@ void write_reports(const CompareRequest& request, const Comparison& comparison, 
 
 std::string_view compare_manual()
 {
-    return "Could A and B, the reference, be pictures of the same thing, but for their noise?\n"
-           "Exit code: 0 passes, 1 cannot be compared, 2 wrong usage, 3 differs, 4 undecided.\n";
+    return R"(Tests whether A and the reference B are equal except for their noise.
+Exit code: 0 passes, 1 cannot be compared, 2 wrong usage, 3 differs,
+4 undecided.
+)";
 }
 
 int compare_command(const CompareRequest& request)
@@ -48,12 +51,14 @@ int compare_command(const CompareRequest& request)
     if (!request.difference.empty()) images.push_back(request.difference);
     check_outputs(images, request.json);
     keep_inputs(KeptFiles({request.a, request.b}), images, request.json,
-                "it is one of the pictures to compare");
+                "it is one of the images to compare");
     const Image a = read_image(request.a, true);
     const Image b = read_image(request.b, true);
 
     CompareSettings how = request.how;
-    if (!how.flip)
+    if (!how.flip && !how.layer.empty())
+        how.flip = FlipMode::none; // numbers, no colours
+    else if (!how.flip)
         how.flip = is_low_dynamic_range(request.a) && is_low_dynamic_range(request.b) ? FlipMode::ldr
                                                                                       : FlipMode::hdr;
     const Comparison comparison = compare(a, b, how);

@@ -53,8 +53,9 @@ std::string metrics_text(const Comparison& c)
                                 number(c.corrected->low), number(c.corrected->high),
                                 c.corrected->root ? number(*c.corrected->root) : "0"));
         if (c.corrected->high < 0.0 && c.same_random_numbers)
-            text +=
-                row("", "below 0: they differ less than independent noise would, for their seed is the same");
+            text += row(
+                "",
+                "below 0: they differ less than independent noise would, because they have the same seed");
     }
     const NonFinite& n = c.non_finite;
     if (n.first)
@@ -98,7 +99,7 @@ std::string significance_text(const Comparison& c, const CompareSettings& option
     std::string text;
     if (!s.scales.empty()) {
         text += fmt::format("  {:<16} {:>8} {:>8} {:>8}   {:<8} {}\n", "tests of", "all", "tested", "differ",
-                            "p", "where most: A and B");
+                            "p", "largest difference: A and B");
         for (const ScaleTest& scale : s.scales) text += scale_text(c, scale);
         if (s.detectable_bias)
             text +=

@@ -25,7 +25,7 @@ std::vector<Estimator> estimators_of(const EstimatorRequest& request, std::strin
     if (estimators.size() < 2)
         throw UsageError(fmt::format("{} needs two estimators or more; name them with --integrators", verb));
     if (request.settings.stop.seconds && request.settings.samples.per_pixel)
-        throw UsageError("--time and --spp exclude each other");
+        throw UsageError("--time and --spp cannot be used together");
     return estimators;
 }
 
@@ -54,8 +54,8 @@ void doubt_if_untested(Comparison& comparison)
     Significance& found = comparison.significance;
     if (!comparison.identical || found.untested < found.pixels) return;
     found.finding = Finding::undecided;
-    found.reason = comparison.metrics.mean_a == 0.0 ? "both pictures are black: no sample has found any light"
-                                                    : "no sample of either tells of any noise";
+    found.reason = comparison.metrics.mean_a == 0.0 ? "both images are black: no sample has found any light"
+                                                    : "no sample of either image shows any noise";
     comparison.outcome = CompareOutcome::undecided;
 }
 
@@ -126,7 +126,7 @@ std::string advice(const std::vector<Estimate>& estimates, const std::vector<Pai
         if (estimates.size() > 2 && is_shared(estimate))
             names += (names.empty() ? "" : " or ") + estimate.name;
     std::string text = "more samples may decide it";
-    if (!names.empty()) text += "; or leave out " + names + ", which finds some of the light too rarely";
+    if (!names.empty()) text += "; or omit " + names + ", which finds some of the light too rarely";
     return text + "\n";
 }
 

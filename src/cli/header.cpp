@@ -4,6 +4,7 @@
 #include "cli/program.h"
 #include "cli/text.h"
 
+#include "plumb/aovs.h"
 #include "plumb/settings_header.h"
 
 #include <cstring>
@@ -100,6 +101,10 @@ Metadata scene_header(const RenderRequest& request, const LoadedScene& scene)
     add("plumb:instructionSet", scene.job.scene.options().instruction_set);
     add("plumb:embree", scene.job.scene.embree_version());
     add("plumb:processor", processor_maker());
+    for (auto& [name, ids] : id_tables(request.settings.view.aovs, scene.job.scene)) {
+        for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = fmt::format("{} {}", i + 1, ids[i]);
+        header.emplace_back("plumb:ids." + name, valid_utf8(lines_text(ids)));
+    }
     add("worldToCamera", world_to_camera(*scene.job.camera));
     return header;
 }

@@ -19,9 +19,9 @@ int help_command(const std::string& word)
         const auto& types = known_types();
         const bool is_type =
             std::any_of(types.begin(), types.end(), [&](const TypeInfo& type) { return type.name == word; });
-        throw UsageError(is_type
-                             ? fmt::format("'{0}' is no verb; 'renderer types {0}' prints its manual", word)
-                             : unknown_verb(word));
+        throw UsageError(
+            is_type ? fmt::format("'{0}' is not a verb; 'renderer types {0}' prints its manual", word)
+                    : unknown_verb(word));
     }
     print_output(help_text(row->verb));
     return exit_code::done;

@@ -25,11 +25,11 @@ void log_facts(const SceneRequest& request, const LoadedScene& loaded)
                           scene.triangle_count(), scene.emitters().size()));
     if (!bounds.isEmpty())
         print_log(fmt::format("bounds: {} to {}", point_text(bounds.min), point_text(bounds.max)));
-    print_log(fmt::format("picture: {} x {} pixels, {} samples each, seed {}", resolution.x, resolution.y,
+    print_log(fmt::format("image: {} x {} pixels, {} samples each, seed {}", resolution.x, resolution.y,
                           loaded.job.sampler->samples_per_pixel(), request.settings.samples.seed));
     print_log(fmt::format("integrator: {}; sampler: {}", loaded.integrator, loaded.sampler));
     print_log(fmt::format(
-        "readings: emitters {}, mirror {}, point lights in {}, environment images {}times {}",
+        "dialect settings: emitters {}, mirror {}, point lights in {}, environment images {}times {}",
         loaded.dialect.emitters_absorb ? "absorb" : "scatter", loaded.dialect.mirrored_view ? "on" : "off",
         loaded.dialect.point_takes_power ? "power" : "radiance",
         loaded.dialect.environment_flipped ? "flipped and " : "", loaded.dialect.environment_scale));
@@ -47,7 +47,7 @@ LoadedScene load_and_log(const SceneRequest& request)
     if (!std::filesystem::exists(path, ignored)) {
         if (is_no_file_name(request.scene) && !closest_verb(request.scene).empty())
             throw UsageError(unknown_verb(request.scene));
-        throw Error(fmt::format("there is no scene file '{}'{}", request.scene,
+        throw Error(fmt::format("scene file '{}' does not exist{}", request.scene,
                                 find_named_file({}, request.scene).way_out));
     }
     LoadedScene scene = load_scene(path, load_options(request));

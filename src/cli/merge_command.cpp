@@ -36,11 +36,10 @@ std::uint64_t wanted_samples(const StateFile& file, const std::string& name)
 void check_language(const StateFile& part, const std::string& name)
 {
     if (const int was = language_of(part.header); was != language_version)
-        throw Error(fmt::format(
-            "'{}' was made with version {} of the scene language, and this program reads version {}, "
-            "in which directional lights and checkerboards may have another meaning; merge it "
-            "with the Plumb that rendered it",
-            name, was, language_version));
+        throw Error(fmt::format("'{}' was made with version {} of the scene language, and this program reads "
+                                "version {}, in which directional lights and checkerboards may have a "
+                                "different meaning; merge it with the version of Plumb that rendered it",
+                                name, was, language_version));
 }
 
 // Throws Error if the part is not one of the same picture, or has samples that are there already.
@@ -48,7 +47,7 @@ void check_part(const Merged& merged, const StateFile& part, const std::string& 
 {
     const std::string& first = merged.parts.front().first;
     const auto refuse = [&](const std::string& why) {
-        throw Error(fmt::format("'{}' and '{}' are not of one picture: {}", first, name, why));
+        throw Error(fmt::format("'{}' and '{}' are not parts of one image: {}", first, name, why));
     };
     if (const auto changes = sample_changes(merged.file.header, part.header); !changes.empty())
         refuse(list_text(changes));
@@ -57,12 +56,16 @@ void check_part(const Merged& merged, const StateFile& part, const std::string& 
         refuse(fmt::format("one has the pixels {}, the other {}",
                            rectangle_text(merged.file.state.film.window()),
                            rectangle_text(part.state.film.window())));
+    if (part.state.film.layers() != merged.file.state.film.layers())
+        refuse(fmt::format("one has the layers {}, the other {}",
+                           layer_names(merged.file.state.film.layers()),
+                           layer_names(part.state.film.layers())));
     const std::uint64_t here = wanted_samples(merged.file, first);
     if (const std::uint64_t there = wanted_samples(part, name); there != here)
-        refuse(fmt::format("one is of {} samples per pixel, the other of {}", here, there));
+        refuse(fmt::format("one has {} samples per pixel, the other {}", here, there));
     for (const auto& [other, samples] : merged.parts)
         if (const SampleSet both = samples & part.state.taken; !both.empty())
-            throw Error(fmt::format("'{}' and '{}' both have {} samples, the first of them at {}", other,
+            throw Error(fmt::format("'{}' and '{}' both contain {} samples, the first of them at {}", other,
                                     name, count_text(both.count()), SampleSet(both.blocks().front()).text()));
 }
 
@@ -179,12 +182,15 @@ void write_picture_of(const Merged& merged, const MergeRequest& request)
 
 std::string_view merge_manual()
 {
-    return "Puts together what `renderer SCENE --part K/N -o PART.exr` rendered, in any order: the picture\n"
-           "is that of rendering all of it at once, bit for bit. With --checkpoint the sum is a part again,\n"
-           "which may be merged with others or, once the whole picture is there, be gone on from. The\n"
-           "checkpoint of an unfinished rendering is a part as well. Parts of different scenes, settings,\n"
-           "programs (rebuilt ones, too) or instruction sets, samples that are there twice, and samples\n"
-           "that are missing (but for --allow-missing) are errors.\n";
+    return R"(Merges the files that `renderer SCENE --part K/N -o PART.exr` rendered, in any
+order. The image is that of a rendering in one piece, bit for bit. With
+--checkpoint the result is a part again: you can merge it with others or, once
+it is complete, resume it. The checkpoint of an unfinished rendering is a part
+as well.
+Parts of different scenes, settings, programs (rebuilt ones, too) or
+instruction sets are errors; so are duplicate samples, and missing samples
+without --allow-missing.
+)";
 }
 
 int merge_command(const MergeRequest& request)
@@ -210,7 +216,7 @@ int merge_command(const MergeRequest& request)
                           count_text(missing.count()), count_text(wanted.count()),
                           missing_parts(merged.names), SampleSet(missing.blocks().front()).text());
     if (!missing.empty() && !request.outputs.empty() && !request.allow_missing)
-        throw Error(complaint + "; --allow-missing makes the picture without them");
+        throw Error(complaint + "; pass --allow-missing to merge without them");
 
     std::sort(merged.names.begin(), merged.names.end());
     replace(file.header, "plumb:workPart", lines_text(merged.names));

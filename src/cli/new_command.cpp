@@ -17,12 +17,12 @@ namespace plumb {
 namespace {
 
 constexpr std::string_view first_scene =
-    R"(<!-- Render it: renderer FILE. What there is beside what you see here: renderer types. -->
+    R"(<!-- To render it: renderer FILE. To list all types: renderer types. -->
 
-<!-- The scene language has dialects, for the courses that use it: "plumb" is the one of the manual. -->
+<!-- The scene language has dialects, for the courses that use it: "plumb" is that of the manual. -->
 <scene dialect="plumb">
 
-    <!-- How light is found, and how many paths each pixel gets: more is less noise. -->
+    <!-- How light is found, and the number of paths per pixel: more paths mean less noise. -->
     <integrator type="path_mis"/>
     <sampler type="sobol"> <integer name="sampleCount" value="64"/> </sampler>
 
@@ -65,7 +65,7 @@ constexpr std::string_view first_scene =
         </bsdf>
     </shape>
 
-    <!-- A lamp above, which shines downwards: towards its normal. -->
+    <!-- An emitter above. It shines along its normal, downwards. -->
     <shape type="rectangle">
         <point name="center" value="-1.5, 5, 2"/> <vector name="normal" value="0.2, -1, -0.3"/>
         <float name="width" value="2.5"/> <float name="height" value="2.5"/>
@@ -87,7 +87,7 @@ void write_new(const std::string& file, std::string_view text)
 {
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> out(std::fopen(file.c_str(), "wxb"), std::fclose);
     if (!out && errno == EEXIST)
-        throw Error(fmt::format("'{}' is there already, and is left as it is; name another file", file));
+        throw Error(fmt::format("'{}' already exists; choose another file name", file));
     if (!out) throw Error(fmt::format("cannot write '{}': {}", file, reason_of(errno)));
     const bool written = std::fwrite(text.data(), 1, text.size(), out.get()) == text.size();
     if (!written || std::fflush(out.get()) != 0) {
@@ -101,8 +101,9 @@ void write_new(const std::string& file, std::string_view text)
 
 std::string_view new_manual()
 {
-    return "Writes a small scene with comments, to begin with. A file that is there already is left as it "
-           "is.\n";
+    return R"(Writes a small scene with comments, to begin with. An existing file is not
+overwritten.
+)";
 }
 
 int new_command(const std::string& file, bool quiet)

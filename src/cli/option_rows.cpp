@@ -67,16 +67,16 @@ std::vector<OptionRow> make_rows()
 {
     return {
         {Topic::output, rendering | merge_only, "-o,--output", "FILE",
-         "write this image: .exr, .hdr, .tif, .png or .jpg; may be given\n"
-         "several times (default SCENE_SPP.exr and .png in this folder)",
+         "write this image: .exr, .hdr, .tif, .png or .jpg;\n"
+         "may be repeated (default SCENE_SPP.exr and .png)",
          [](Options& o, Name, Text t) { o.outputs.push_back(t); }, true},
         of_picture(Topic::output, render_only, "exposure"),
         of_picture(Topic::output, render_only, "no-variance"),
         {Topic::output, rendering | merge_only | test_only | compare_only | agree_or_race, "--json", "FILE",
          "write a report of the run; - is standard output", [](Options& o, Name, Text t) { o.json = t; }},
-        {Topic::output, batch_only, "--out", "FOLDER", "for pictures and reports (default batch/SUITE)",
+        {Topic::output, batch_only, "--out", "DIR", "directory for images and reports\n(default batch/SUITE)",
          [](Options& o, Name n, Text t) {
-             if (t.empty()) throw UsageError(fmt::format("{} needs a folder", n));
+             if (t.empty()) throw UsageError(fmt::format("{} needs a directory", n));
              o.batch.folder = t;
          }},
         {Topic::output, batch_only, "--update", "", "make the references instead of comparing with them",
@@ -84,51 +84,55 @@ std::vector<OptionRow> make_rows()
         {Topic::output, compare_only, "--diff", "FILE", "write the difference in false colours, with a scale",
          [](Options& o, Name, Text t) { o.compare.difference = t; }},
         {Topic::output, compare_only, "--diff-of", "WHAT",
-         "error: the largest |A - B| of the channels (default); or flip",
+         "error: the largest |A - B| of the channels (default);\nor flip",
          [](Options& o, Name n, Text t) {
              o.compare.difference_is_flip = parse_word(n, t, {"error", "flip"}) == "flip";
          }},
 
         {Topic::state, render_only | merge_only, "--checkpoint", "FILE",
-         "keep all that is rendered in this .exr file, to go on from",
+         "write checkpoints to this .exr file, to resume from",
          [](Options& o, Name n, Text t) {
              if (t.empty()) throw UsageError(fmt::format("{} needs a file name", n));
              o.checkpoint.file = t;
          }},
-        {Topic::state, render_only, "--checkpoint-every", "T", "how often: 90, 90s, 10m or 2h (default 60s)",
+        {Topic::state, render_only, "--checkpoint-every", "T",
+         "checkpoint interval: 90, 90s, 10m or 2h (default 60s)",
          [](Options& o, Name n, Text t) { o.checkpoint.every_seconds = parse_duration(n, t); }},
-        {Topic::state, render_only, "--resume", "", "go on from the checkpoint, if there is one",
+        {Topic::state, render_only, "--resume", "", "resume from the checkpoint, if it exists",
          [](Options& o, Name, Text) { o.checkpoint.resume = true; }},
         {Topic::state, render_only, "--part", "K/N",
-         "take the samples of part K of N only, from 1; -o is then a file\nfor 'renderer merge', and the "
-         "checkpoint",
+         "render part K of N only, K from 1 to N; -o is then a\n"
+         "file for 'renderer merge', and the checkpoint",
          [](Options& o, Name n, Text t) {
              const auto [index, count] = parse_part(n, t);
              if (!o.part) o.part.emplace();
              o.part->index = index - 1;
              o.part->count = count;
          }},
-        {Topic::state, render_only, "--part-by", "WHAT", "tiles or samples (default tiles)",
+        {Topic::state, render_only, "--part-by", "WHAT", "split by tiles or samples (default tiles)",
          [](Options& o, Name n, Text t) {
              o.part_by = parse_word(n, t, {"tiles", "samples"}) == "tiles" ? PartBy::tiles : PartBy::samples;
          }},
-        {Topic::state, merge_only, "--allow-missing", "", "make the picture although samples are missing",
+        {Topic::state, merge_only, "--allow-missing", "", "merge even if samples are missing",
          [](Options& o, Name, Text) { o.merge.allow_missing = true; }},
 
         of_picture(Topic::picture, both | agree_or_race, "spp"),
         of_picture(Topic::picture, both | test_only | agree_or_race, "seed"),
         of_picture(Topic::picture, loads_scene, "size"),
         of_picture(Topic::picture, render_only, "crop"),
+        of_picture(Topic::picture, render_only, "aov"),
         of_picture(Topic::picture, both | check_only, "integrator"),
         of_picture(Topic::picture, both, "sampler"),
         {Topic::picture, agree_or_race, "--integrators", "TYPE,...",
-         "which estimators (default path,path_nee,path_mis)",
+         "estimators (default path,path_nee,path_mis)",
          [](Options& o, Name n, Text t) { o.race.integrators = parse_list(n, t); }},
         {Topic::picture, agree_or_race, "--samplers", "TYPE,...",
-         "each estimator with each of them (default: the scene's)",
+         "use each estimator with each of these samplers\n"
+         "(default: the scene's)",
          [](Options& o, Name n, Text t) { o.race.samplers = parse_list(n, t); }},
         {Topic::picture, race_only, "--rounds", "N",
-         "pictures by each estimator, of --spp samples (default 16)",
+         "images per estimator, of --spp samples each\n"
+         "(default 16)",
          [](Options& o, Name n, Text t) { o.race.rounds = parse_integer(n, t, 3, 10000); }},
         of_picture(Topic::picture, render_only | agree_or_race, "time"),
         of_picture(Topic::picture, render_only, "target-error"),
@@ -140,37 +144,39 @@ std::vector<OptionRow> make_rows()
         of_picture(Topic::scene, loads, "envmap-scale"),
         of_picture(Topic::scene, loads, "lenient"),
 
-        {Topic::scene, rerun_only, "--scene", "FILE", "where the scene file lies now",
+        {Topic::scene, rerun_only, "--scene", "FILE", "the path of the scene file",
          [](Options& o, Name n, Text t) {
              if (t.empty()) throw UsageError(fmt::format("{} needs a file name", n));
              o.rerun.scene = t;
          }},
 
         {Topic::running, batch_only, "--filter", "TEXT",
-         "only pictures whose names contain it, or match it if it has * or ?",
+         "only images whose names contain this, or match it if\n"
+         "it has * or ?",
          [](Options& o, Name n, Text t) {
              if (t.empty()) throw UsageError(fmt::format("{} needs a text", n));
              o.batch.filter = t;
          }},
-        {Topic::running, batch_only, "--fail-fast", "", "stop at the first that does not pass",
+        {Topic::running, batch_only, "--fail-fast", "", "stop at the first image that does not pass",
          [](Options& o, Name, Text) { o.batch.fail_fast = true; }},
-        {Topic::running, batch_only, "--force", "", "render also what is up to date",
+        {Topic::running, batch_only, "--force", "", "also render what is up to date",
          [](Options& o, Name, Text) { o.batch.force = true; }},
         {Topic::running, rendering | test_only | agree_or_race | batch_only, "-t,--threads", "N",
-         "how many (default: all there are)",
+         "number of threads (default: all)",
          [](Options& o, Name n, Text t) { o.threads = static_cast<int>(parse_integer(n, t, 1, 1024)); }},
         of_picture(Topic::running, loads, "isa"),
         {Topic::running, loads | rerun_only | merge_only | compare_only | batch_only, "--quiet", "",
-         "print nothing but errors", [](Options& o, Name, Text) { o.quiet = true; }},
+         "print errors only", [](Options& o, Name, Text) { o.quiet = true; }},
         {Topic::running, loads_scene | rerun_only, "--verbose", "", "print facts about the scene",
          [](Options& o, Name, Text) { o.verbose = true; }},
 
         {Topic::path, replay_only, "--pixel", "X,Y", "the pixel, counted from the upper left corner",
          [](Options& o, Name n, Text t) { o.replay.pixel = parse_pixel(n, t); }},
-        {Topic::path, replay_only, "--sample", "I", "which of its samples, counted from 0",
+        {Topic::path, replay_only, "--sample", "I", "the index of the sample, counted from 0",
          [](Options& o, Name n, Text t) { o.replay.sample = parse_integer(n, t, 0, UINT64_MAX); }},
 
         of_comparison(compare_only | agree_or_race, "significance"),
+        of_comparison(compare_only, "layer"),
         of_comparison(compare_only, "exact"),
         of_comparison(compare_only, "no-verdict"),
         of_comparison(compare_only | agree_or_race, "fail-percent"),
@@ -211,7 +217,7 @@ std::string help_text(Verb verb)
         for (const VerbRow& row : verb_rows())
             text +=
                 fmt::format("{} {:<47} {}\n", text.empty() ? "usage:" : "      ", row.command(), row.summary);
-        text += "A scene file that is called like a verb is given as ./types.\n";
+        text += "If a scene file has the name of a verb, write it as ./types.\n";
     } else {
         text = fmt::format("usage: {}\n", asked.command());
         if (asked.manual) text += asked.manual();

@@ -30,7 +30,7 @@ constexpr std::pair<std::string_view, std::string_view> foreign_names[] = {
 [[noreturn]] void reject_option(Verb verb, std::string_view word)
 {
     const std::string_view name = word.substr(0, word.find('='));
-    if (name == "--no-gui") throw UsageError("there is no window: leave out '--no-gui'");
+    if (name == "--no-gui") throw UsageError("Plumb has no window; omit '--no-gui'");
     std::vector<std::string_view> known;
     for (const OptionRow& row : option_rows()) {
         for (std::string_view names = row.names; !names.empty();) {
@@ -38,7 +38,7 @@ constexpr std::pair<std::string_view, std::string_view> foreign_names[] = {
             const std::string_view one = names.substr(0, comma);
             names.remove_prefix(std::min(comma + 1, names.size()));
             if (one == name)
-                throw UsageError(fmt::format("option '{}' does not go with {}", name, name_of(verb)));
+                throw UsageError(fmt::format("option '{}' cannot be used with {}", name, name_of(verb)));
             if (row.goes_with(verb)) known.push_back(one);
         }
     }
@@ -65,9 +65,9 @@ void reject_words(const Options& options, const std::string& first, const std::v
     const std::string& word = options.subjects[verb.max_subjects];
     for (const VerbRow& row : verb_rows())
         if (!row.name.empty() && word == row.name)
-            throw UsageError(fmt::format("the verb '{}' must be the first word", word));
+            throw UsageError(fmt::format("the verb '{}' must come first", word));
     throw UsageError(
-        fmt::format("'{}' is one word too many after '{}'", word, options.subjects[verb.max_subjects - 1]));
+        fmt::format("unexpected argument '{}' after '{}'", word, options.subjects[verb.max_subjects - 1]));
 }
 
 void check_outputs(const Options& options)
@@ -77,7 +77,7 @@ void check_outputs(const Options& options)
         if (file.empty()) throw UsageError(fmt::format("{} needs a file name", option));
         const auto path = std::filesystem::path(file).lexically_normal();
         for (const auto& [other, name] : seen)
-            if (other == path) throw UsageError(fmt::format("'{}' is to be written twice", name));
+            if (other == path) throw UsageError(fmt::format("'{}' is listed as an output twice", name));
         seen.emplace_back(path, file);
     };
     for (const std::string& file : options.outputs) check(file, "--output");
@@ -95,18 +95,17 @@ void settle_state_file(Options& options)
         options.part->by = options.part_by.value_or(PartBy::tiles);
         if (!checkpoint.file.empty())
             throw UsageError(
-                "--part and --checkpoint exclude each other: the output of a part is its checkpoint");
+                "--part and --checkpoint cannot be used together: the output of a part is its checkpoint");
         if (options.outputs.size() != 1) throw UsageError("--part needs one -o,--output FILE.exr");
         if (options.settings.stop != StopSettings())
-            throw UsageError("a part is a fixed set of samples: --part goes with --spp, not with --time or "
-                             "--target-error");
+            throw UsageError(
+                "a part is a fixed set of samples: use --part with --spp, not with --time or --target-error");
         checkpoint.file = options.outputs.front();
     }
-    if (checkpoint.resume && checkpoint.file.empty())
-        throw UsageError("--resume needs --checkpoint FILE, to go on from");
+    if (checkpoint.resume && checkpoint.file.empty()) throw UsageError("--resume needs --checkpoint FILE");
     if (!checkpoint.file.empty() && !checkpoint.file.ends_with(".exr"))
         throw UsageError(
-            fmt::format("a checkpoint and a part are .exr files, and '{}' is none", checkpoint.file));
+            fmt::format("'{}' must end in .exr: checkpoints and parts are .exr files", checkpoint.file));
 }
 
 // CLI11 says "--spp: 1 required TEXT missing" or "quiet was given a disallowed flag override".
@@ -208,7 +207,7 @@ Options parse_options(std::vector<std::string> words)
                              : fmt::format("{} needs two {}s; 'renderer {} --help' shows how", verb.name,
                                            verb.subject, verb.name));
     if (options.verb == Verb::rerun && options.outputs.empty())
-        throw UsageError("rerun needs -o,--output FILE: it does not guess which file to write");
+        throw UsageError("rerun needs -o,--output FILE; it has no default output");
     if (options.verb == Verb::replay)
         for (const OptionRow* row : known)
             if (row->topic == Topic::path &&
@@ -219,8 +218,8 @@ Options parse_options(std::vector<std::string> words)
     if (options.verb == Verb::render) settle_state_file(options);
     if (options.verb == Verb::merge && options.outputs.empty() && options.checkpoint.file.empty())
         throw UsageError(
-            "merge needs -o,--output IMAGE, or --checkpoint FILE for parts that are to be merged on");
-    if (options.quiet && options.verbose) throw UsageError("--quiet and --verbose exclude each other");
+            "merge needs -o,--output IMAGE, or --checkpoint FILE to merge the result with more parts");
+    if (options.quiet && options.verbose) throw UsageError("--quiet and --verbose cannot be used together");
     check_outputs(options);
     return options;
 }

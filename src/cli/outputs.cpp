@@ -59,7 +59,7 @@ std::string write_into_refuge(const std::filesystem::path& output, const Image& 
         const std::filesystem::path path = free_name(folder, output.filename());
         try {
             write_image(path, image, exposure, packing);
-            return fmt::format("; the picture is in '{}' instead", path.string());
+            return fmt::format("; the image was written to '{}' instead", path.string());
         } catch (const Error&) { // the message is that of the file that was asked for
         }
     }
@@ -77,7 +77,7 @@ void check_outputs(const std::vector<std::string>& images, const std::string& js
         const std::filesystem::path path = identity(file);
         if (path.empty()) continue;
         if (std::find(seen.begin(), seen.end(), path) != seen.end())
-            throw UsageError(fmt::format("'{}' is to be written twice", file));
+            throw UsageError(fmt::format("'{}' is listed as an output twice", file));
         seen.push_back(path);
     }
 }

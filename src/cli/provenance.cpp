@@ -51,7 +51,7 @@ std::vector<std::string> setting_changes(const Metadata& then, const Metadata& n
     } catch (const Error&) {
         // whoever reads the settings says so
     }
-    if (changes.empty()) changes.emplace_back("the settings are not the same");
+    if (changes.empty()) changes.emplace_back("the settings differ");
     return changes;
 }
 
@@ -86,9 +86,8 @@ std::optional<std::uint64_t> header_samples(const Metadata& header, std::string_
     if (there == header.end()) return std::nullopt;
     const int* const samples = std::get_if<int>(&there->second);
     if (!samples || *samples < 1 || static_cast<std::uint64_t>(*samples) > max_samples_per_pixel)
-        throw Error(
-            fmt::format("the header of '{}' makes no sense: {} must be an integer from 1 to {}, not {}", file,
-                        name, max_samples_per_pixel, value_text(header, name)));
+        throw Error(fmt::format("the header of '{}' is invalid: {} must be an integer from 1 to {}, not {}",
+                                file, name, max_samples_per_pixel, value_text(header, name)));
     return static_cast<std::uint64_t>(*samples);
 }
 
@@ -97,7 +96,7 @@ RenderSettings header_settings(const Metadata& header, const std::string& file)
     try {
         return settings_of_header(header);
     } catch (const Error& problem) {
-        throw Error(fmt::format("the header of '{}' makes no sense: {}", file, problem.what()));
+        throw Error(fmt::format("the header of '{}' is invalid: {}", file, problem.what()));
     }
 }
 
@@ -114,12 +113,13 @@ std::vector<std::string> input_changes(const Metadata& then, const Metadata& now
     for (const auto& [name, hash] : hash_of_name(header_text(now, "plumb:inputs"))) {
         const auto found = expected.find(name);
         if (found == expected.end())
-            changes.push_back(fmt::format("'{}' was not read then", name));
+            changes.push_back(fmt::format("'{}' is a new input", name));
         else if (found->second != hash)
             changes.push_back(fmt::format("'{}' has changed", name));
         if (found != expected.end()) expected.erase(found);
     }
-    for (const auto& [name, hash] : expected) changes.push_back(fmt::format("'{}' is no longer read", name));
+    for (const auto& [name, hash] : expected)
+        changes.push_back(fmt::format("'{}' is no longer an input", name));
     return changes;
 }
 
@@ -127,26 +127,25 @@ std::vector<std::string> sample_changes(const Metadata& then, const Metadata& no
 {
     constexpr std::pair<const char*, const char*> settings[] = {
         {"Software", "the program"},
-        {"plumb:workProgram", "the program's code"},
-        {"plumb:definitions", "what --define says"},
+        {"plumb:workProgram", "the hash of the program"},
+        {"plumb:definitions", "--define"},
         {"plumb:integrator", "the integrator"},
         {"plumb:sampler", "the sampler"},
-        {"plumb:samplerTotal", "the total number of samples, on which those of the sampler depend,"},
+        {"plumb:samplerTotal", "the sampler's total number of samples"},
         {"plumb:seed", "the seed"},
         {"plumb:dialect", "the dialect"},
-        {"plumb:emitters", "what emitters do"},
-        {"plumb:mirror", "the mirrored view"},
+        {"plumb:emitters", "--emitters"},
+        {"plumb:mirror", "--mirror"},
         {"plumb:point", "the unit of point lights"},
         {"plumb:envmapFlipped", "the flip of environment images"},
         {"plumb:envmapScale", "the scale of environment images"},
         {"plumb:instructionSet", "the instruction set"},
         {"plumb:embree", "Embree's version"},
-        {"plumb:processor", "the processor's maker"},
+        {"plumb:processor", "the processor vendor"},
     };
     if (has_old_hashes(then) != has_old_hashes(now))
-        return {"its inputs are told by hashes of Plumb 0.1, not by SHA-256, so that nobody can tell whether "
-                "they are what "
-                "they were"};
+        return {
+            "it identifies its inputs by hashes of Plumb 0.1, not by SHA-256, so they cannot be verified"};
     std::vector<std::string> changes = input_changes(then, now);
     for (const auto& [name, meaning] : settings)
         if (const std::string was = value_text(then, name), is = value_text(now, name); was != is)

@@ -184,19 +184,20 @@ std::string race_json(const RaceRequest& request, const std::vector<Result>& res
 
 std::string_view race_manual()
 {
-    return "Renders the scene with each estimator in turn, in rounds of pictures of equal samples, each "
-           "with\n"
-           "a seed of its own, and prints of each: the time that a sample of every pixel takes; the "
-           "variance\n"
-           "of a picture with so many samples, the mean over pixels and channels, by the spread between the\n"
-           "rounds, which is right for any sampler; and the efficiency 1 / (time x variance) over that of "
-           "the\n"
-           "best, with a 95 % interval. Twice the efficiency is the same noise in half the time. Rare "
-           "bright\n"
-           "paths that no round has met are in no variance. The means of the rounds are compared as\n"
-           "`renderer agree` does: those that differ do not estimate the same, and have raced for nothing.\n"
-           "The scene is loaded once for each estimator, and all pictures are kept in memory.\n"
-           "Exit code: 0 they agree, 1 the scene is wrong, 2 wrong usage, 3 they differ, 4 undecided.\n";
+    return R"(Renders the scene with each estimator in turn, in rounds of images with equal
+numbers of samples, each with a seed of its own. For each estimator it prints
+  - the time of one sample of every pixel;
+  - the variance of an image with that many samples: the mean over pixels and
+    channels of the spread between the rounds, which is right for any sampler;
+  - the efficiency 1 / (time x variance), relative to the best, with a 95 %
+    interval. Twice the efficiency is the same noise in half the time.
+Rare bright paths that no round has found are in no variance. The means of the
+rounds are compared as `renderer agree` does: if they differ, the estimators do
+not estimate the same, and their efficiencies are not comparable. The scene is
+loaded once for each estimator, and all images are kept in memory.
+Exit code: 0 they agree, 1 the scene is wrong, 2 wrong usage, 3 they differ,
+4 undecided.
+)";
 }
 
 int race_command(const RaceRequest& request)

@@ -57,12 +57,12 @@ void log_summary(const Report& report, const RenderRequest& request)
         print_log(fmt::format("biased: {}", list_text(evidence.ledger.biases)));
     if (report.is_black && report.lights > 0 && evidence.taken.count() > 0)
         print_log(
-            fmt::format("warning: the picture is black, though there {}; 'renderer check {}' may say why",
+            fmt::format("warning: the image is black, although there {}; 'renderer check {}' may say why",
                         report.lights == 1 ? "is a light" : fmt::format("are {} lights", report.lights),
                         shell_quote(request.scene)));
     if (evidence.left_out.count == 0) return;
     const LeftOut::Sample& first = evidence.left_out.first;
-    print_log(fmt::format("warning: {} samples were left out, the first is {}; to see its path:",
+    print_log(fmt::format("warning: {} samples were discarded, the first is {}; to see its path:",
                           evidence.left_out.count, left_out_text(first)));
     print_log(fmt::format("    renderer replay {} --pixel {},{} --sample {}{}", shell_quote(request.scene),
                           first.pixel.x, first.pixel.y, first.index, replay_options_text(request.settings)));
@@ -73,7 +73,7 @@ void log_interruption(const RenderRequest& request, const SampleSet::Range& samp
 {
     const bool can_go_on = !request.checkpoint.file.empty();
     print_log(fmt::format("interrupted with {} to {} samples per pixel; {}", samples.least, samples.most,
-                          can_go_on ? "to go on:" : "without --checkpoint it cannot be gone on from"));
+                          can_go_on ? "to resume:" : "cannot be resumed without --checkpoint"));
     if (can_go_on) print_log("    renderer" + request.typed + (request.checkpoint.resume ? "" : " --resume"));
 }
 
@@ -96,7 +96,7 @@ void keep_checkpoint(const RenderRequest& request)
     if (file.empty() || request.checkpoint.resume) return;
     if (const auto there = generation_there(file))
         throw Error(
-            fmt::format("'{}' is there already: go on from it with --resume, or remove it", there->string()));
+            fmt::format("'{}' already exists; pass --resume to continue it, or remove it", there->string()));
 }
 
 // All that a run writes to.

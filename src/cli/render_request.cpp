@@ -51,6 +51,7 @@ RenderOptions render_options(const RenderSettings& settings, int threads)
     options.seed = settings.samples.seed;
     options.threads = threads;
     options.crop = settings.view.crop;
+    options.aovs = settings.view.aovs;
     return options;
 }
 

@@ -8,6 +8,7 @@
 #include "cli/progress.h"
 #include "cli/text.h"
 
+#include "plumb/aovs.h"
 #include "plumb/image.h"
 #include "plumb/stop_rules.h"
 
@@ -45,8 +46,8 @@ StopRules stop_rules(const RenderRequest& request, const LoadedScene& scene)
     if (!other_rule || request.settings.samples.per_pixel) return rules;
     if (scene.job.sampler->depends_on_total())
         throw Error(
-            fmt::format("the sampler '{}' must know how many samples a pixel gets in all: with --time and "
-                        "--target-error give the most by --spp, or take --sampler sobol",
+            fmt::format("the sampler '{}' depends on the total number of samples per pixel: with --time or "
+                        "--target-error, give the maximum with --spp, or use --sampler sobol",
                         scene.sampler));
     rules.samples_per_pixel = film_max_samples;
     return rules;
@@ -84,6 +85,7 @@ private:
     RenderState start() const
     {
         const std::string& name = request_.checkpoint.file;
+        const ChannelSet layers = layers_of(request_.settings.view.aovs);
         std::optional<StateFile> file;
         if (request_.checkpoint.resume) {
             const Metadata header = with_program(header_);
@@ -92,17 +94,20 @@ private:
         }
         if (!file) {
             if (request_.checkpoint.resume && !request_.quiet)
-                print_log(fmt::format("there is no '{}' yet: starting with the first sample", name));
-            return {Film(window_, resolution_.x, resolution_.y), {}, {}, {}};
+                print_log(fmt::format("'{}' does not exist yet; starting with the first sample", name));
+            return {Film(window_, resolution_.x, resolution_.y, layers), {}, {}, {}};
         }
+        if (file->state.film.layers() != layers)
+            throw Error(fmt::format("cannot resume from '{}': it has the layers {}, and --aov asks for {}",
+                                    name, layer_names(file->state.film.layers()), layer_names(layers)));
         if (const PixelRect& window = file->state.film.window(); window != window_)
-            throw Error(fmt::format("cannot go on from '{}': it has the pixels {}, not {}", name,
+            throw Error(fmt::format("cannot resume from '{}': it has the pixels {}, not {}", name,
                                     rectangle_text(window), rectangle_text(window_)));
         if (const SampleSet more = file->state.taken - most_wanted(); !more.empty())
-            throw Error(fmt::format("cannot go on from '{}': it has samples that are not asked for: {}", name,
-                                    more.text()));
+            throw Error(fmt::format("cannot resume from '{}': it has samples that were not requested: {}",
+                                    name, more.text()));
         if (!request_.quiet)
-            print_log(fmt::format("going on from '{}', which has {} samples", name,
+            print_log(fmt::format("resuming from '{}', which has {} samples", name,
                                   count_text(file->state.taken.count())));
         return std::move(file->state);
     }
@@ -148,7 +153,7 @@ private:
         if (!noise) return false;
         samples_expected_ = static_cast<double>(samples) * sqr(noise->high / *rules_.relative_error);
         if (noise->high > *rules_.relative_error) return false;
-        stop_ = fmt::format("it stopped when its own noise was below {}", *rules_.relative_error);
+        stop_ = fmt::format("it stopped when its measured noise was below {}", *rules_.relative_error);
         return true;
     }
 
@@ -165,7 +170,7 @@ private:
             try {
                 save_run(request_, scene_, rendering_.state(), stop_, header_);
             } catch (const Error& error) {
-                print_log(fmt::format("warning: {}; rendering goes on", error.what()));
+                print_log(fmt::format("warning: {}; rendering continues", error.what()));
             }
             timer_.restart();
         }

@@ -18,17 +18,16 @@ Metadata read_recipe(const std::string& image_file)
 {
     Metadata recipe = read_image(image_file, false).metadata;
     if (header_text(recipe, "plumb:scene").empty() || header_text(recipe, "plumb:inputs").empty())
-        throw Error(fmt::format(
-            "the header of '{}' does not say how the picture was made; the .exr files that Plumb renders do",
-            image_file));
+        throw Error(fmt::format("the header of '{}' does not say how the image was made; those of .exr files "
+                                "rendered by Plumb do",
+                                image_file));
     if (const std::string software = header_text(recipe, "Software"); software != "Plumb " PLUMB_VERSION)
-        throw Error(fmt::format("'{}' was rendered by '{}', and this is Plumb {}, whose pictures may differ",
+        throw Error(fmt::format("'{}' was rendered by '{}', and this is Plumb {}, whose images may differ",
                                 image_file, software, PLUMB_VERSION));
     if (has_old_hashes(recipe))
-        throw Error(fmt::format(
-            "the header of '{}' tells the scene's files by hashes of Plumb 0.1, not by SHA-256, so "
-            "that nobody can tell whether they are what they were; render the scene itself",
-            image_file));
+        throw Error(fmt::format("the header of '{}' identifies the scene's files by hashes of Plumb 0.1, not "
+                                "by SHA-256, so they cannot be verified; render the scene itself",
+                                image_file));
     return recipe;
 }
 
@@ -38,15 +37,14 @@ std::string find_scene(const RerunRequest& run, const std::string& scene)
     if (!run.scene.empty()) return run.scene;
     // Headers have no absolute paths, unless somebody else has written them.
     if (std::filesystem::path(scene).is_absolute())
-        throw Error(fmt::format("the header of '{}' makes no sense: plumb:scene is an absolute path, '{}'",
+        throw Error(fmt::format("the header of '{}' is invalid: plumb:scene is an absolute path, '{}'",
                                 run.image, scene));
     const std::filesystem::path beside = std::filesystem::path(run.image).parent_path() / scene;
     std::error_code ignored;
     for (const std::filesystem::path& path : {std::filesystem::path(scene), beside})
         if (std::filesystem::exists(path, ignored)) return path.string();
-    throw Error(
-        fmt::format("there is no scene file '{}', neither here nor beside '{}'; say where it is with --scene",
-                    scene, run.image));
+    throw Error(fmt::format("scene file '{}' exists neither here nor beside '{}'; pass its path with --scene",
+                            scene, run.image));
 }
 
 // What made the picture, with what is said of this run.
@@ -78,13 +76,12 @@ SampleSet samples_of(const Metadata& recipe, const PixelRect& window, const std:
     const auto samples = SampleSet::from_text(header_text(recipe, name));
     if (!samples || samples->empty())
         throw Error(
-            fmt::format("the header of '{}' makes no sense: {} is no set of samples", image_file, name));
+            fmt::format("the header of '{}' is invalid: {} is not a set of samples", image_file, name));
     if (const SampleSet outside = *samples - SampleSet(SampleBlock{window, 0, film_max_samples});
         !outside.empty())
-        throw Error(
-            fmt::format("the header of '{}' makes no sense: {} has samples outside the picture, the first "
-                        "of them at {}",
-                        image_file, name, SampleSet(outside.blocks().front()).text()));
+        throw Error(fmt::format(
+            "the header of '{}' is invalid: {} has samples outside the image, the first of them at {}",
+            image_file, name, SampleSet(outside.blocks().front()).text()));
     return *samples;
 }
 
@@ -95,10 +92,9 @@ void check_language(const Metadata& recipe, const LoadedScene& scene, const std:
     if (was == language_version || (was == 1 && scene.changed_readings.empty())) return;
     const std::string what =
         scene.changed_readings.empty() ? "something in the scene" : list_text(scene.changed_readings);
-    throw Error(fmt::format(
-        "cannot render '{}' again: it was made with version {} of the scene language, in which {} "
-        "had another meaning than in version {}; render the scene anew",
-        image_file, was, what, language_version));
+    throw Error(fmt::format("cannot render '{}' again: it was made with version {} of the scene language, in "
+                            "which {} had a different meaning than in version {}; render the scene itself",
+                            image_file, was, what, language_version));
 }
 
 // Throws Error with every file that is not what it was.
@@ -109,23 +105,25 @@ void check_inputs(const Metadata& recipe, const Metadata& now)
         was != is)
         changes.push_back(fmt::format("its dialect was {} and is {}", was, is));
     if (changes.empty() && header_text(recipe, "plumb:inputHash") != header_text(now, "plumb:inputHash"))
-        changes.emplace_back("the dialect's readings have changed");
-    if (!changes.empty()) throw Error(fmt::format("the scene is not what it was: {}", list_text(changes)));
+        changes.emplace_back("the dialect settings have changed");
+    if (!changes.empty()) throw Error(fmt::format("the scene has changed: {}", list_text(changes)));
 }
 
 } // namespace
 
 std::string_view rerun_manual()
 {
-    return "Renders a picture of ours again from what its header says, to the same file, byte for byte.\n"
-           "The scene file is looked for where it was, seen from this folder or from the picture's; if\n"
-           "it, a mesh, an image or this program is not what it was, the error names it.\n";
+    return R"(Renders an image again from its header, to the same file, byte for byte.
+The scene file is looked up relative to the current directory, and then to the
+directory of the image. If the scene file, a mesh, an image or this program has
+changed, the error names it.
+)";
 }
 
 int rerun_command(const RerunRequest& run)
 {
     const Metadata recipe = read_recipe(run.image);
-    keep_inputs(KeptFiles({run.image}), run.outputs, run.json, "it is the picture to be rendered again");
+    keep_inputs(KeptFiles({run.image}), run.outputs, run.json, "it is the image to render again");
     check_outputs(run.outputs, run.json);
     RenderRequest request = request_of(recipe, run);
     const LoadedScene scene = load_and_log(request);

@@ -102,7 +102,7 @@ std::vector<FileReport> load_files(const TestRequest& request)
         std::error_code ignored;
         try {
             if (!std::filesystem::exists(path, ignored))
-                throw Error(fmt::format("there is no test file '{}'", path));
+                throw Error(fmt::format("test file '{}' does not exist", path));
             reports.push_back({path, load_test(path, load), {}});
         } catch (const SceneError& error) {
             broken = true;

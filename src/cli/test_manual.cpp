@@ -31,21 +31,21 @@ sampleCount are not used.
 
 A test that rejects is repeated once with 100 times the samples and independent
 random numbers; both results are printed, and the second one counts. A t-test
-supposes that there is a variance. Where walls that shine touch, as in a closed
-box, next-event estimation has none: samples near the edges are rare and huge,
+assumes a finite variance. Where emitting walls touch, as in a closed box,
+next-event estimation has none: samples near the edges are rare and huge,
 and the plain t-test rejects correct code several times more often than its
-level says. A bias stays when the noise falls to a tenth; such a rejection does
-not, as a rule. So a right renderer seldom fails here, and a mean that is off by
-five standard errors fails for certain. What is smaller than the noise of
-sampleCount samples, this test cannot see.
+level says. A bias stays when the noise falls to a tenth; such a rejection
+usually does not. So a correct renderer seldom fails here, and a mean that is
+off by five standard errors always fails. The test cannot detect what is smaller
+than the noise of sampleCount samples.
 
-Scenes of a ttest are read in one dialect: what --dialect says, else the dialect
-attribute of <scene> or <test>, else the evidence in the file. Only EPFL and ETH
-files have ttests, so that emitters scatter light unless something speaks
-against it. The same seed gives the same results for any number of threads.
+Scenes of a ttest are read in one dialect: that of --dialect, else that of the
+attribute of <scene> or <test>, else the one that the file indicates. Only EPFL
+and ETH files have ttests, so emitters scatter light unless something indicates
+otherwise. The same seed gives the same results for any number of threads.
 
 All files are read before the first test runs. Exit codes: 0 all tests passed,
-3 a test failed, 1 something is wrong with a file, 2 with the command line.
+3 a test failed, 1 a file is wrong, 2 wrong usage.
 )";
 }
 

@@ -51,12 +51,12 @@ Significance find_significance(const Picture& a, const Picture& b, const Compare
         return result;
     };
     if (!options.verdict) return without_tests(Finding::not_asked, "only the limits decide");
-    if (a.is_exact && b.is_exact) return without_tests(Finding::not_asked, "neither picture has noise");
+    if (a.is_exact && b.is_exact) return without_tests(Finding::not_asked, "neither image has noise");
     if (!a.knows_noise() && !b.knows_noise())
-        return without_tests(Finding::not_asked, "neither picture has variance channels");
+        return without_tests(Finding::not_asked, "neither image has variance channels");
     if (!a.knows_noise() || !b.knows_noise())
         return without_tests(Finding::undecided,
-                             fmt::format("{0} has no variance channels; if it has no noise, say --exact {0}",
+                             fmt::format("{0} has no variance channels; if it has no noise, pass --exact {0}",
                                          a.knows_noise() ? "B" : "A"));
 
     result = test_significance(a, b, options);
@@ -97,8 +97,8 @@ CompareOutcome find_outcome(const Comparison& comparison, const CompareSettings&
 
 Comparison compare(const Image& image_a, const Image& image_b, const CompareSettings& options)
 {
-    Picture a = make_picture(image_a, Side::a);
-    Picture b = make_picture(image_b, Side::b);
+    Picture a = make_picture(image_a, Side::a, options.layer);
+    Picture b = make_picture(image_b, Side::b, options.layer);
     check_comparable(a, b);
     a.is_exact = options.exact == Side::a;
     b.is_exact = options.exact == Side::b;
@@ -110,7 +110,7 @@ Comparison compare(const Image& image_a, const Image& image_b, const CompareSett
     result.identical = are_identical(a, b);
     result.same_random_numbers = share_random_numbers(a, b);
     result.metrics = measure(a, b);
-    result.flip_mode = options.flip.value_or(FlipMode::hdr);
+    result.flip_mode = options.flip.value_or(options.layer.empty() ? FlipMode::hdr : FlipMode::none);
     add_flip(result, a, b, result.flip_mode);
     result.non_finite = count_non_finite(a, b);
     result.corrected = correct_for_noise(a, b);

@@ -119,10 +119,10 @@ double nearly_largest(std::vector<float> errors)
 
 } // namespace
 
-Image difference_image(const Image& image_a, const Image& image_b)
+Image difference_image(const Image& image_a, const Image& image_b, const std::string& layer)
 {
-    const Picture a = make_picture(image_a, Side::a);
-    const Picture b = make_picture(image_b, Side::b);
+    const Picture a = make_picture(image_a, Side::a, layer);
+    const Picture b = make_picture(image_b, Side::b, layer);
     check_comparable(a, b);
     std::vector<float> errors;
     errors.reserve(a.pixels());

@@ -112,10 +112,10 @@ double metric_value(const Metrics& metrics, std::string_view name)
     if (name == "psnr") return metrics.psnr;
     if (name == "flip") {
         if (metrics.flip) return *metrics.flip;
-        throw Error("FLIP was not computed, so it can have no limit");
+        throw Error("FLIP was not computed, so it cannot have a limit");
     }
     throw Error(
-        fmt::format("there is no metric '{}'; there are mse, rmse, relmse, mae, max, psnr and flip", name));
+        fmt::format("unknown metric '{}'; known are mse, rmse, relmse, mae, max, psnr and flip", name));
 }
 
 } // namespace plumb

@@ -3,6 +3,8 @@
 
 #include "plumb/error.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 namespace plumb {
@@ -53,6 +55,33 @@ std::optional<double> samples_per_pixel(const Image& image)
     return {};
 }
 
+const char* name_of(Side side)
+{
+    return side == Side::a ? "A" : "B";
+}
+
+// Red, green and blue in this order, others by their names.
+std::vector<std::string> channels_of_layer(const Image& image, Side side, const std::string& layer)
+{
+    std::vector<std::string> names;
+    std::vector<std::string> layers;
+    for (const std::string& name : image.channel_names()) {
+        const std::string of = name.substr(0, std::min(name.rfind('.'), name.size()));
+        if (of == layer && name != layer) names.push_back(name);
+        if (of != name && std::find(layers.begin(), layers.end(), of) == layers.end()) layers.push_back(of);
+    }
+    if (names.empty())
+        throw Error(fmt::format("{} has no layer '{}'; it has {}", name_of(side), layer,
+                                layers.empty() ? "none" : fmt::format("{}", fmt::join(layers, ", "))));
+    if (names.size() > 3)
+        throw Error(fmt::format("the layer '{}' of {} has {} channels, and at most 3 can be compared", layer,
+                                name_of(side), names.size()));
+    std::sort(names.begin(), names.end());
+    if (names.size() == 3 && names.front() == layer + ".B" && names.back() == layer + ".R")
+        std::swap(names.front(), names.back());
+    return names;
+}
+
 // Empty if there is no such entry.
 std::string header_text(const Image& image, std::string_view name)
 {
@@ -72,11 +101,6 @@ std::string estimator_of(const Image& image)
     return inputs.empty() || integrator.empty() ? "" : inputs + " " + integrator;
 }
 
-const char* name_of(Side side)
-{
-    return side == Side::a ? "A" : "B";
-}
-
 std::string size_text(const Picture& picture)
 {
     const PixelRect& window = picture.window;
@@ -91,7 +115,7 @@ std::string size_text(const Picture& picture)
 Color Picture::color(std::size_t pixel) const
 {
     if (channels.size() == 1) return Color(value(pixel, 0));
-    return {value(pixel, 0), value(pixel, 1), value(pixel, 2)};
+    return {value(pixel, 0), value(pixel, 1), channels.size() > 2 ? value(pixel, 2) : 0.f};
 }
 
 bool Picture::is_finite(std::size_t pixel) const
@@ -109,12 +133,19 @@ bool Picture::variance_is_known(std::size_t pixel) const
     return true;
 }
 
-Picture make_picture(const Image& image, Side side)
+Picture make_picture(const Image& image, Side side, const std::string& layer)
 {
     Picture picture;
     picture.window = image.data_window();
     picture.full_width = image.full_width();
     picture.full_height = image.full_height();
+    if (!layer.empty()) {
+        picture.channels = channels_of_layer(image, side, layer);
+        picture.values = read_channels(image, *find_channels(image, picture.channels));
+        picture.estimator = estimator_of(image);
+        picture.seed = header_text(image, "plumb:seed");
+        return picture;
+    }
     for (const std::vector<std::string>& names : {std::vector<std::string>{"R", "G", "B"}, {"Y"}}) {
         const auto places = find_channels(image, names);
         if (!places) continue;
@@ -150,9 +181,9 @@ void check_comparable(const Picture& a, const Picture& b)
 {
     if (size_text(a) != size_text(b))
         throw Error(
-            fmt::format("the pictures have different sizes: A is {}, B is {}", size_text(a), size_text(b)));
+            fmt::format("the images have different sizes: A is {}, B is {}", size_text(a), size_text(b)));
     if (a.channels != b.channels)
-        throw Error(fmt::format("the pictures have different channels: A has {}, B has {}",
+        throw Error(fmt::format("the images have different channels: A has {}, B has {}",
                                 fmt::join(a.channels, ", "), fmt::join(b.channels, ", ")));
 }
 

@@ -11,7 +11,7 @@ struct Picture {
     PixelRect window; // the pixels that exist
     int full_width = 0;
     int full_height = 0;
-    std::vector<std::string> channels; // R, G and B, or Y
+    std::vector<std::string> channels; // R, G and B, or Y, or those of a layer: at most three
     std::vector<float> values;         // of each pixel, its channels
     std::vector<float> variances;      // likewise; empty: unknown
     std::vector<float> contributing;   // one a pixel; empty: unknown
@@ -30,14 +30,15 @@ struct Picture {
     {
         return is_exact ? 0.0 : static_cast<double>(variances[pixel * channels.size() + channel]);
     }
-    Color color(std::size_t pixel) const; // grey where there is only Y
+    Color color(std::size_t pixel) const; // grey where there is one channel; blue is 0 where there are two
     bool is_finite(std::size_t pixel) const;
     // All channels have a variance that is known: finite and not negative.
     bool variance_is_known(std::size_t pixel) const;
 };
 
-// `side` names the picture in messages. Throws Error if it has neither R, G and B nor Y.
-Picture make_picture(const Image& image, Side side);
+// `side` names the picture in messages. layer: empty, or the channels layer.* instead of R, G and B, or Y. Throws Error if they
+// are not there.
+Picture make_picture(const Image& image, Side side, const std::string& layer = {});
 
 // The samples of both have one distribution: the headers name the same inputs, settings and integrator.
 bool are_of_one_estimator(const Picture& a, const Picture& b);

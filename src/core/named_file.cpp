@@ -85,12 +85,11 @@ NamedFile find_named_file(const fs::path& folder, const std::string& name)
     for (const std::string& text : {name, slashes}) {
         const fs::path here = fs::path(text).lexically_normal();
         if (is_there(here))
-            return {
-                here,
-                {},
-                fmt::format("'{}' is not beside '{}' but in the working folder, where another run may find "
-                            "another file or none; write '{}'",
-                            here.string(), folder.string(), seen_from(folder, here))};
+            return {here,
+                    {},
+                    fmt::format("'{}' is not beside '{}' but in the working directory, so another run may "
+                                "find another file or none; write '{}'",
+                                here.string(), folder.string(), seen_from(folder, here))};
     }
     return {beside, way_out_of(folder, slashes), {}};
 }

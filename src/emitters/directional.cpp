@@ -15,7 +15,7 @@ namespace plumb {
 /// `direction` is where the light goes, as in Mitsuba and in most forks of Nori: a sun above has a negative y. In the
 /// mcgill dialect it points the other way, towards the light.
 ///
-///     direction   vector   where the light goes, any length but 0; mcgill: whence it comes   (required)
+///     direction   vector   where the light goes, any length but 0; mcgill: where it comes from   (required)
 ///     radiance    color    irradiance perpendicular to the direction, in W / m^2          (default 1)
 ///
 ///         <emitter type="directional">

@@ -13,19 +13,19 @@
 
 namespace plumb {
 
-/// Light from infinitely far away, all around: a picture of the surroundings, or one colour.
+/// Light from infinitely far away, all around: an image of the surroundings, or one colour.
 ///
 /// The y axis points up. With phi = atan2(z, x) in [0, 2 pi) and theta = acos(y), a direction sees column
-/// phi / (2 pi) width and row theta / pi height of the picture, whose first row is around +y; pixels are squares with
+/// phi / (2 pi) width and row theta / pi height of the image, whose first row is around +y; pixels are squares with
 /// their value in the middle, interpolated bilinearly; columns repeat, and beyond the first and last row, at the poles,
-/// those rows go on. In the Zaragoza dialect both run the other way: column (1 - phi / (2 pi)) width and row
+/// those rows repeat. In the Zaragoza dialect both run the other way: column (1 - phi / (2 pi)) width and row
 /// (1 - theta / pi) height, values in the pixels' upper left corners, rows repeat, and values are divided by 255
 /// (--envmap-scale). The parameter `rotate` is accepted and ignored, as in the course.
 ///
 /// Directions are chosen in proportion to the luminance that they show.
 ///
-///     filename   string   the picture, in any format that OpenImageIO reads   (default: none, one colour)
-///     radiance   color    multiplies the picture; without one, the radiance, in W / (m^2 sr)   (default 1)
+///     filename   string   the image, in any format that OpenImageIO reads   (default: none, one colour)
+///     radiance   color    multiplies the image; without one, the radiance, in W / (m^2 sr)   (default 1)
 ///
 /// For example:
 ///
@@ -40,7 +40,7 @@ public:
     {
         p.ignore(
             "rotate",
-            "'rotate' of an environment is ignored, as in the course's renderer: the picture is not turned");
+            "'rotate' of an environment is ignored, as in the course's renderer: the image is not rotated");
         if (!p.has("filename")) {
             integral_ = 2.0 * two_pi_ * luminance(constant_);
             return;
@@ -48,7 +48,7 @@ public:
         bitmap_ =
             std::make_unique<Bitmap>(p.file("filename"), true, constant_ * p.dialect().environment_scale);
         if (bitmap_->min_value() < 0.f) {
-            p.warn("filename", "the picture has negative values, which are taken as 0");
+            p.warn("filename", "the image has negative values, which are clamped to 0");
             bitmap_->clamp_negative();
         }
         tabulate();

@@ -43,7 +43,7 @@ public:
         return Color(sum / static_cast<float>(samples_));
     }
 
-    std::string bias() const override { return "it shows how open surfaces lie, not light"; }
+    std::string bias() const override { return "it shows visibility, not light"; }
     bool needs_lamps() const override { return false; }
 
 private:

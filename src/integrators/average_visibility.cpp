@@ -38,7 +38,7 @@ public:
         return Color(tracer.occluded(probe) ? 0.f : 1.f);
     }
 
-    std::string bias() const override { return "it shows how open surfaces lie, not light"; }
+    std::string bias() const override { return "it shows visibility, not light"; }
     bool needs_lamps() const override { return false; }
 
 private:

@@ -31,9 +31,9 @@ ConfiguredPath::ConfiguredPath(const Params& params)
 {
     params.choice("indirect-measure", "hemisphere", {"hemisphere"});
     if (params.integer("nSamples", 1) != 1)
-        params.warn("nSamples",
-                    "nSamples is not used: a path is one sample; the sampler's sampleCount says how "
-                    "many there are");
+        params.warn(
+            "nSamples",
+            "nSamples is not used: a path is one sample; the sampler's sampleCount sets their number");
     read_termination(params);
 }
 
@@ -45,9 +45,8 @@ ConfiguredPath::DirectMeasure ConfiguredPath::direct_measure(const Params& param
     if (word == "area") return DirectMeasure::area;
     if (word == "hemisphere") return DirectMeasure::hemisphere;
     if (is_explicit)
-        params.warn("direct-measure",
-                    "explicit mode without a direct-measure samples each light by solid angle "
-                    "if it can be, else by area");
+        params.warn("direct-measure", "explicit mode without a direct-measure samples each light by solid "
+                                      "angle if possible, else by area");
     return DirectMeasure::best;
 }
 

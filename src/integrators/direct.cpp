@@ -9,7 +9,7 @@ namespace plumb {
 
 /// Emission and direct light from all lights, by the technique of your choice.
 ///
-/// Without parameters every emitter is sampled once. Emitters reflected by discrete BSDFs (mirror, smooth glass) are
+/// Without parameters every emitter is sampled once. Emitters reflected by delta BSDFs (mirror, smooth glass) are
 /// seen too, and lights that a technique cannot find (point and directional ones by hemisphere or bsdf) are sampled
 /// directly, so that all techniques agree.
 ///

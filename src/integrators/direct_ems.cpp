@@ -8,7 +8,7 @@ namespace plumb {
 /// Emission and direct light, by emitter sampling: one sample of one emitter, chosen by what it is
 /// expected to send to the surface.
 ///
-/// Emitters reflected by discrete BSDFs (mirror, smooth glass) are seen too, so that all direct_* integrators agree.
+/// Emitters reflected by delta BSDFs (mirror, smooth glass) are seen too, so that all direct_* integrators agree.
 /// No parameters.
 ///
 ///         <integrator type="direct_ems"/>

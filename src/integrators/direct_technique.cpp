@@ -74,7 +74,8 @@ float DirectTechnique::density(const Scene& scene, const Vertex& vertex, const V
 {
     if (samples_emitters()) return scene.emission(vertex.receiver(), wo_world, hit, measure()).pdf;
     const bool by_bsdf = kind_ == Kind::bsdf || vertex.has_discrete_lobes() || vertex.has_transmission();
-    return by_bsdf ? value.pdf : hemisphere_pdf(warp_, vertex.at().shading.to_local(wo_world));
+    if (by_bsdf) return value.pdf;
+    return hemisphere_pdf(warp_, vertex.on_seen_side(vertex.at().shading.to_local(wo_world)));
 }
 
 std::optional<DirectTechnique::Found> DirectTechnique::find(Tracer& tracer, Sampler& sampler,

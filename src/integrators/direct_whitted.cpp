@@ -9,7 +9,7 @@ namespace plumb {
 
 /// Emission and direct light, by one sample of every emitter.
 ///
-/// Emitters reflected by discrete BSDFs (mirror, smooth glass) are seen too. No parameters.
+/// Emitters reflected by delta BSDFs (mirror, smooth glass) are seen too. No parameters.
 ///
 ///         <integrator type="direct_whitted"/>
 class DirectWhitted final : public Integrator, public SingleDiscreteBounce {

@@ -31,13 +31,14 @@ inline float hemisphere_pdf(HemisphereWarp warp, const Vec3f& w)
     return warp == HemisphereWarp::cosine ? cosine_hemisphere_pdf(w) : uniform_hemisphere_pdf(w);
 }
 
-// A bounce into a direction that the warp chose.
+// A bounce into a direction that the warp chose, on the side that is seen.
 inline std::optional<BsdfSample> scatter_over_hemisphere(HemisphereWarp warp, Sampler& sampler,
                                                          const Vertex& vertex)
 {
-    const Vec3f wo = sample_hemisphere(warp, sampler.next_2d());
-    const float pdf = hemisphere_pdf(warp, wo);
+    const Vec3f up = sample_hemisphere(warp, sampler.next_2d());
+    const float pdf = hemisphere_pdf(warp, up);
     if (!(pdf > 0.f)) return std::nullopt;
+    const Vec3f wo = vertex.on_seen_side(up);
     const BsdfValue value = vertex.evaluate_local(wo);
     return BsdfSample{wo, value.f_cos / pdf, pdf};
 }

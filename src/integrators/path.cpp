@@ -14,14 +14,14 @@ namespace plumb {
 
 /// All light, by paths that follow the BSDFs until they meet an emitter.
 ///
-/// At each surface a direction is sampled from the BSDF and the path goes on there (Kajiya 1986, section 3), until it
+/// At each surface a direction is sampled from the BSDF and the path continues there (Kajiya 1986, section 3), until it
 /// leaves the scene or Russian roulette ends it. Every emitter that it meets counts. Point and directional lights,
-/// which no path can meet, are sampled directly at each surface. Simple, right, and slow where lights are small.
+/// which no path can meet, are sampled directly at each surface. Simple, correct, and slow where lights are small.
 ///
 /// With one of the parameters of the second table it is the configurable path tracer of the McGill course instead.
 /// Implicit mode counts every emitter that the path meets. Explicit mode samples all emitters at each surface, once
-/// each, and counts an emitter that the path meets only if the camera sees it, directly or by discrete bounces
-/// (mirror, smooth glass); so it is unbiased. Discrete and transmitting BSDFs choose their directions themselves,
+/// each, and counts an emitter that the path meets only if the camera sees it, directly or by delta bounces
+/// (mirror, smooth glass); so it is unbiased. Delta and transmitting BSDFs choose their directions themselves,
 /// whatever the warps say.
 ///
 /// Parameters:
@@ -40,7 +40,7 @@ namespace plumb {
 ///     direct-measure      string    how explicit mode samples emitters: solid-angle (spheres and rectangles only), area, hemisphere, or none   (default none: by solid angle where possible)
 ///     direct-warp         string    for direct-measure hemisphere: cosine-hemisphere, uniform-hemisphere or none   (default none: cosine)
 ///     indirect-measure    string    hemisphere   (default hemisphere)
-///     indirect-warp       string    how the path goes on: cosine-hemisphere, uniform-hemisphere or none   (default none: cosine)
+///     indirect-warp       string    how the path continues: cosine-hemisphere, uniform-hemisphere or none   (default none: cosine)
 ///     nSamples            integer   accepted and not used   (default 1)
 ///
 /// Shading normals: the interpolated normal decides what a surface does, the geometry only where the next ray starts. An

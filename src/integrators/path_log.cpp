@@ -29,21 +29,26 @@ std::string text(const Color& c)
 std::string bias_of_depth(int max_depth)
 {
     if (max_depth < 0) return "";
-    if (max_depth == 0) return "all but emitted light is left out";
-    return fmt::format("light of more than {} surface bounce{} is left out", max_depth,
+    if (max_depth == 0) return "all light except emission is omitted";
+    return fmt::format("light of more than {} surface bounce{} is omitted", max_depth,
                        max_depth == 1 ? "" : "s");
 }
 
-void log_scatter(Tracer& tracer, const PathState& path, const BsdfSample& next)
+void note_scatter(Tracer& tracer, const PathState& path, const BsdfSample& next)
 {
+    if (FirstSurfaces* const first = tracer.first_surfaces()) first->scatter(next.weight * sqr(next.eta));
+    if (!tracer.logging()) return;
     tracer.log(PathEvent::Kind::scatter,
                fmt::format("{}: weight {}, {} {:.6g}, eta {:.6g}; throughput {}", name_of(next.lobe),
                            text(next.weight), next.is_delta() ? "probability" : "pdf", next.pdf, next.eta,
                            text(path.throughput)));
 }
 
-void log_roulette(Tracer& tracer, float survival, bool survived)
+void note_roulette(Tracer& tracer, float survival, bool survived)
 {
+    if (FirstSurfaces* const first = tracer.first_surfaces(); first && survived)
+        first->scatter(Color(1.f / survival));
+    if (!tracer.logging()) return;
     tracer.log(PathEvent::Kind::roulette, fmt::format("{} with probability {:.6g}",
                                                       survived ? "survives" : "does not survive", survival));
 }

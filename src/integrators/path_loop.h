@@ -42,9 +42,9 @@ struct PathState {
 // Integrator::bias() of a loop that ends paths at max_depth; negative: none.
 std::string bias_of_depth(int max_depth);
 
-// For `renderer replay`.
-void log_scatter(Tracer& tracer, const PathState& path, const BsdfSample& next);
-void log_roulette(Tracer& tracer, float survival, bool survived);
+// For the first surfaces, and for `renderer replay`.
+void note_scatter(Tracer& tracer, const PathState& path, const BsdfSample& next);
+void note_roulette(Tracer& tracer, float survival, bool survived);
 
 // What the path's last ray sees, if the technique counts it.
 template <class Technique>
@@ -79,7 +79,7 @@ bool survives(const Technique& technique, Tracer& tracer, Sampler& sampler, Path
     if (survival >= 1.f) return true;
     const bool survived = sampler.next_1d() < survival;
     if (survived) path.throughput /= survival;
-    if (tracer.logging()) log_roulette(tracer, survival, survived);
+    if (tracer.watched()) note_roulette(tracer, survival, survived);
     return survived;
 }
 
@@ -106,11 +106,11 @@ Color trace_path(const Technique& technique, Tracer& tracer, Sampler& sampler, R
         result += scattered(technique, tracer, sampler, path, vertex);
         if (!next) return end("the surface absorbs the path"), result;
         path.extend(vertex, *next);
-        if (tracer.logging()) log_scatter(tracer, path, *next);
-        if (path.throughput.is_black()) return end("nothing is left of the path's throughput"), result;
+        if (tracer.watched()) note_scatter(tracer, path, *next);
+        if (path.throughput.is_black()) return end("the throughput of the path is zero"), result;
 
         const bool last = bounces + 1 == technique.max_depth();
-        if (last && !technique.counts_emission(path)) return end("nothing more could count"), result;
+        if (last && !technique.counts_emission(path)) return end("nothing else can contribute"), result;
         if (!survives(technique, tracer, sampler, path, bounces + 1)) return end("roulette"), result;
         ray = hit->spawn_ray(vertex.to_world(*next));
     }

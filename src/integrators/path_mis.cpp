@@ -10,7 +10,7 @@ namespace plumb {
 /// All light, by paths that find emitters in two ways: one emitter sample at each surface, and the path itself.
 ///
 /// Both are weighted by multiple importance sampling (Veach 1997, section 9.2), so each does what it is good at. What
-/// only one of them can find (point lights; what is seen after a discrete bounce) has weight 1. The integrator to
+/// only one of them can find (point lights; what is seen after a delta bounce) has weight 1. The integrator to
 /// use when in doubt.
 ///
 ///     maxDepth    integer   surface bounces: 0 shows emitters only, 1 direct light, -1 everything   (default -1)

@@ -33,6 +33,9 @@ public:
         return at_.bsdf->sample(at_, wi_, u_lobe, u);
     }
 
+    // A direction above the surface, on the side that is seen.
+    Vec3f on_seen_side(const Vec3f& up) const { return {up.x, up.y, wi_.z < 0.f ? -up.z : up.z}; }
+
     // A surface that does not transmit is black, from where it is seen, for light from behind its shading normal.
     LightReceiver receiver() const
     {

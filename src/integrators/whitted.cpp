@@ -11,8 +11,8 @@ namespace plumb {
 
 /// Emission, direct light, and what is seen in mirrors and through smooth glass (Whitted 1980).
 ///
-/// One sample of one emitter, chosen by what it is expected to send there, at the first surface that is not discrete;
-/// discrete bounces are followed with probability 0.95 each, and weighted by its inverse. No parameters.
+/// One sample of one emitter, chosen by what it is expected to send there, at the first surface that is not delta;
+/// delta bounces are followed with probability 0.95 each, and weighted by its inverse. No parameters.
 ///
 ///         <integrator type="whitted"/>
 class Whitted final : public Integrator, public DiscreteChain {
@@ -24,7 +24,7 @@ public:
         return trace_path(*this, tracer, sampler, ray);
     }
 
-    std::string bias() const override { return "light between surfaces that are not smooth is left out"; }
+    std::string bias() const override { return "light between surfaces that are not smooth is omitted"; }
 
     Color direct(Tracer& tracer, Sampler& sampler, const Vertex& vertex) const
     {

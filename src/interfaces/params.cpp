@@ -228,9 +228,9 @@ std::filesystem::path Params::file(std::string_view name) const
     missing_file_ = true;
     fail(name,
          fmt::format("{}: '{}'{}",
-                     std::filesystem::is_directory(path, status) ? "is a folder, not a file"
-                     : std::filesystem::exists(path, status) ? "is a device, a pipe or the like, not a file"
-                                                             : "names a file that does not exist",
+                     std::filesystem::is_directory(path, status) ? "is a directory, not a file"
+                     : std::filesystem::exists(path, status)     ? "is a device or a pipe, not a regular file"
+                                                                 : "names a file that does not exist",
                      path.string(), way_out));
     return path;
 }
@@ -281,6 +281,7 @@ void Params::reject_unused() const
         if (!property.asked) reject("parameter", name, property.name_at);
     for (const TextureChild& child : textures_)
         if (!child.asked) reject("texture", child.name, child.at);
+    reject_unused_bsdfs();
 }
 
 } // namespace plumb

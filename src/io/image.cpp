@@ -124,7 +124,7 @@ Image read_image(const std::filesystem::path& path, bool decode_srgb)
 {
     const std::string name = path.string();
     const auto fail = [&name](std::string reason) -> Error {
-        return Error(fmt::format("cannot read '{}': {}", name, reason.empty() ? "not a picture" : reason));
+        return Error(fmt::format("cannot read '{}': {}", name, reason.empty() ? "not an image" : reason));
     };
     if (std::string problem = problem_of_file(path); !problem.empty()) throw fail(std::move(problem));
     if (is_truncated_png(path)) throw fail("the file ends early");

@@ -34,7 +34,7 @@ std::vector<fs::path> folders()
 
 [[noreturn]] void fail(const std::string& reason)
 {
-    throw Error(fmt::format("cannot read or write pictures: {}", reason));
+    throw Error(fmt::format("cannot read or write images: {}", reason));
 }
 
 void* open_module(const std::string& name)
@@ -60,7 +60,7 @@ void* open_module()
         looked_in += fmt::format("{}'{}'", looked_in.empty() ? "" : ", ", folder.string());
     }
     if (void* const library = open_module(file_name)) return library;
-    fail(fmt::format("there is no {}, a part of Plumb, in {} or where libraries are", file_name, looked_in));
+    fail(fmt::format("{}, a part of Plumb, is neither in {} nor in the library path", file_name, looked_in));
 }
 
 struct LoadedModule {
@@ -74,7 +74,7 @@ LoadedModule load_module()
     auto* const entry = reinterpret_cast<Entry*>(dlsym(open_module(), "plumb_image_module"));
     const ImageModule* const module = entry ? entry(PLUMB_VERSION) : nullptr;
     if (!module)
-        fail(fmt::format("the {} that was found is of another version than " PLUMB_VERSION, file_name));
+        fail(fmt::format("the {} that was found has another version than " PLUMB_VERSION, file_name));
     Dl_info info{};
     dladdr(reinterpret_cast<const void*>(entry), &info);
     return {*module, hash_of_files({info.dli_fname})};

@@ -22,7 +22,7 @@ std::string reason_text(std::string_view text)
 {
     if (text.find("bad_alloc") != std::string_view::npos) return "not enough memory";
     std::string reason = one_line(text);
-    if (reason.empty()) return "for no known reason; there may be too little memory";
+    if (reason.empty()) return "for an unknown reason; there may be too little memory";
     if (reason.find("failed to map segment") != std::string::npos)
         reason += "; there may be too little memory";
     return reason;

@@ -58,12 +58,12 @@ const Format& format_of(const std::filesystem::path& path)
     fail(path, fmt::format("unknown extension '{}'; known are {}", path.extension().string(), known));
 }
 
-// Error bars go into formats that hold any channel. They come last.
+// Layers go into formats that hold any channel. They come last.
 int channels_written(const Image& image, const Format& format)
 {
     const std::vector<std::string>& names = image.channel_names();
-    const auto first_of_evidence = std::find_if(names.begin(), names.end(), is_evidence_channel);
-    return format.keeps_all ? image.channel_count() : static_cast<int>(first_of_evidence - names.begin());
+    const auto first_of_layers = std::find_if(names.begin(), names.end(), is_layer_channel);
+    return format.keeps_all ? image.channel_count() : static_cast<int>(first_of_layers - names.begin());
 }
 
 std::vector<std::uint8_t> encode_srgb(const Image& image, int channels, float exposure)
@@ -116,14 +116,14 @@ void check_image_path(const std::filesystem::path& path)
 {
     if (!path.has_filename()) fail(path, "no file name");
     std::error_code error;
-    if (std::filesystem::is_directory(path, error)) fail(path, "a folder of that name exists");
+    if (std::filesystem::is_directory(path, error)) fail(path, "a directory of that name exists");
     format_of(path);
     const std::filesystem::path end = end_of_links(path);
     const std::filesystem::path folder = end.has_parent_path() ? end.parent_path() : ".";
     if (!std::filesystem::exists(folder, error))
-        fail(path, fmt::format("the folder '{}' does not exist", folder.string()));
+        fail(path, fmt::format("the directory '{}' does not exist", folder.string()));
     if (!std::filesystem::is_directory(folder, error))
-        fail(path, fmt::format("'{}' is no folder", folder.string()));
+        fail(path, fmt::format("'{}' is not a directory", folder.string()));
     if (std::filesystem::exists(path, error) && access(path.c_str(), W_OK) != 0)
         fail(path, std::strerror(errno));
     const TemporaryFile probe(path); // created, and removed

@@ -274,19 +274,19 @@ private:
         const auto add = [this](const std::string& text) {
             mesh_.warning += (mesh_.warning.empty() ? "" : "; ") + text;
         };
-        if (without_area_ == 1) add("1 triangle has no area and was left out");
-        if (without_area_ > 1) add(fmt::format("{} triangles have no area and were left out", without_area_));
+        if (without_area_ == 1) add("1 triangle has no area and was discarded");
+        if (without_area_ > 1)
+            add(fmt::format("{} triangles have no area and were discarded", without_area_));
         if (faces_without_normal_ > 0)
             add(fmt::format(
                 "{} of {} faces have corners without a normal, or with one of length zero, where the face's "
                 "own normal is used",
                 faces_without_normal_, face_count_));
-        if (dropped_uvs_) add("texture coordinates are left out, because some face corners have none");
+        if (dropped_uvs_) add("texture coordinates are ignored, because some face corners have none");
         if (materials_ > 1)
-            add(fmt::format(
-                "the faces name {} materials (usemtl), which are not read: all have the one BSDF of "
-                "the scene file",
-                materials_));
+            add(fmt::format("the faces name {} materials (usemtl), which are not read: all use the BSDF of "
+                            "the scene file",
+                            materials_));
     }
 
     ObjAttributes& found_;

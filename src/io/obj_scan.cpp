@@ -216,8 +216,8 @@ private:
         const std::string_view token(begin, static_cast<std::size_t>(p - begin));
         if (magnitude == 0) fail(token, "indices count from 1 (or backwards from -1), not from 0");
         if (negative && magnitude > static_cast<std::int64_t>(count_so_far))
-            fail(token, fmt::format("{} index {} reaches back beyond the first: {} so far", kind.one,
-                                    excerpt(token), kind.counted(count_so_far)));
+            fail(token, fmt::format("{} index {} is out of range: only {} so far", kind.one, excerpt(token),
+                                    kind.counted(count_so_far)));
         if (!negative && magnitude > largest.value) largest = {static_cast<std::int32_t>(magnitude), token};
         return p;
     }

@@ -22,8 +22,8 @@ namespace {
 std::string_view kind_problem(const std::filesystem::file_status& status)
 {
     if (!std::filesystem::exists(status)) return "no such file";
-    if (std::filesystem::is_directory(status)) return "it is a folder";
-    if (!std::filesystem::is_regular_file(status)) return "it is a device, a pipe or the like, not a file";
+    if (std::filesystem::is_directory(status)) return "it is a directory";
+    if (!std::filesystem::is_regular_file(status)) return "it is a device or a pipe, not a regular file";
     return {};
 }
 
@@ -57,7 +57,7 @@ Opened open_regular(const std::filesystem::path& path)
     Opened opened{.descriptor = descriptor};
     struct stat facts = {};
     if (fstat(descriptor, &facts) != 0 || !S_ISREG(facts.st_mode))
-        opened.problem = "it is a device, a pipe or the like, not a file";
+        opened.problem = "it is a device or a pipe, not a regular file";
     opened.size = static_cast<std::uintmax_t>(facts.st_size);
     if (opened.problem.empty() && is_lfs_pointer(descriptor, opened.size))
         opened.problem = "it is a Git LFS pointer, not the file itself; 'git lfs pull' fetches that";

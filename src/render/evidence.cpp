@@ -54,7 +54,7 @@ Ledger make_ledger(const RenderJob& job, const Dialect& dialect)
 {
     Ledger ledger;
     if (std::string bias = job.integrator->bias(); !bias.empty()) ledger.biases.push_back(std::move(bias));
-    if (dialect.emitters_absorb) ledger.model.emplace_back("emitters absorb the light that meets them");
+    if (dialect.emitters_absorb) ledger.model.emplace_back("emitters absorb incident light");
     if (dialect.mirrored_view) ledger.model.emplace_back("the view is mirrored");
     if (dialect.point_takes_power) ledger.model.emplace_back("the power of point lights is in watts");
     if (dialect.environment_flipped) ledger.model.emplace_back("environment images are flipped");
@@ -77,7 +77,7 @@ Evidence make_evidence(Ledger before, const RenderState& state, const std::strin
     evidence.even = state.taken == SampleSet(SampleBlock{window, 0, evidence.samples_per_pixel});
     std::vector<std::string>& biases = evidence.ledger.biases;
     if (state.left_out.count > 0)
-        biases.push_back(fmt::format("{} samples were left out", state.left_out.count));
+        biases.push_back(fmt::format("{} samples were discarded", state.left_out.count));
     if (!stop.empty() && stop != interruption) biases.push_back(stop);
     if (evidence.samples_per_pixel == 0) biases.emplace_back("some pixels have no samples and are black");
     return evidence;

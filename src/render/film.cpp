@@ -4,6 +4,8 @@
 
 #include "core/parallel.h"
 #include "plumb/error.h"
+#include "render/fixed_sum.h"
+#include "render/layer_sums.h"
 
 #include <array>
 #include <mutex>
@@ -15,42 +17,20 @@
 namespace plumb {
 namespace {
 
-__extension__ typedef __int128 Int128;
-
-constexpr double unit = 0x1p-64; // what the last bit of a sum is worth
-constexpr double units_per_one = 0x1p64;
+constexpr double unit = fixed_unit;
+constexpr double units_per_one = fixed_units_per_one;
 
 // A sample from here on has its square in the table of large ones. Below, 2^26 squares add up to less than 2^62.
 constexpr float large = 0x1p18f;
 constexpr double large_unit = 0x1p-20;
 constexpr double large_units_per_one = 0x1p20;
 
-void put(std::uint32_t* words, Int128 number)
-{
-    for (int i = 0; i < 4; ++i) words[i] = static_cast<std::uint32_t>(number >> (32 * i));
-}
-
-Int128 get(const std::uint32_t* words)
-{
-    __extension__ typedef unsigned __int128 Unsigned;
-    Unsigned number = 0;
-    for (int i = 0; i < 4; ++i) number |= Unsigned{words[i]} << (32 * i);
-    return static_cast<Int128>(number);
-}
-
-// To the nearest unit. Numbers of 2^62 units and more are whole numbers of units: floats have 24 bits, their squares 48.
-Int128 to_fixed(double units)
-{
-    if (std::abs(units) < 0x1p62) return std::llrint(units);
-    return static_cast<Int128>(units);
-}
-
 } // namespace
 
 // Threads share it; integer sums make their order irrelevant.
 struct Film::LargeSquares {
     std::mutex mutex;
-    std::unordered_map<std::size_t, std::array<Int128, 3>> of_pixel;
+    std::unordered_map<std::size_t, std::array<FixedSum, 3>> of_pixel;
 
     void add(std::size_t pixel, int channel, double square)
     {
@@ -66,17 +46,23 @@ struct Film::LargeSquares {
     }
 };
 
-Film::Film(PixelRect window, int full_width, int full_height)
+Film::Film(PixelRect window, int full_width, int full_height, ChannelSet layers)
     : window_(window),
       full_width_(full_width),
       full_height_(full_height),
       large_squares_(std::make_unique<LargeSquares>())
 {
+    if (layers.size() > max_layers)
+        throw Error(fmt::format("a film has at most {} layers, not {}", max_layers, layers.size()));
+    const std::size_t bytes = film_bytes_per_pixel + LayerSums::bytes_per_pixel(layers);
+    const std::size_t pixels =
+        static_cast<std::size_t>(window.width) * static_cast<std::size_t>(window.height);
     try {
-        pixels_.resize(static_cast<std::size_t>(window.width) * static_cast<std::size_t>(window.height));
+        pixels_.resize(pixels);
+        if (!layers.empty()) layers_ = std::make_unique<LayerSums>(std::move(layers), pixels);
     } catch (const std::bad_alloc&) {
         throw Error(fmt::format("not enough memory for a film of {}x{} pixels ({} bytes each)", window.width,
-                                window.height, film_bytes_per_pixel));
+                                window.height, bytes));
     }
     static_assert(sizeof(Pixel) == film_bytes_per_pixel);
 }
@@ -84,6 +70,12 @@ Film::Film(PixelRect window, int full_width, int full_height)
 Film::Film(Film&&) noexcept = default;
 Film& Film::operator=(Film&&) noexcept = default;
 Film::~Film() = default;
+
+const ChannelSet& Film::layers() const
+{
+    static const ChannelSet none;
+    return layers_ ? layers_->layers() : none;
+}
 
 std::size_t Film::index(Vec2i pixel) const
 {
@@ -107,6 +99,14 @@ Verdict Film::add(Vec2i pixel, const Color& radiance, float weight)
     add_channel(at, 1, value.g);
     add_channel(at, 2, value.b);
     return Verdict::accepted;
+}
+
+Verdict Film::add(Vec2i pixel, const Color& radiance, float weight, const LayerSample& layers,
+                  std::uint64_t number)
+{
+    const Verdict verdict = add(pixel, radiance, weight);
+    if (layers_ && verdict == Verdict::accepted) layers_->add(index(pixel), weight, layers, number);
+    return verdict;
 }
 
 void Film::add_channel(std::size_t pixel, int channel, float value)
@@ -158,6 +158,9 @@ Image Film::develop(Channels channels) const
     const bool evidence = channels == Channels::color_and_evidence;
     std::vector<std::string> names = {"R", "G", "B"};
     if (evidence) names.insert(names.end(), {"variance.R", "variance.G", "variance.B", "contributing"});
+    const std::size_t beauty = names.size();
+    for (const Layer& layer : layers())
+        for (std::size_t c = 0; c < layer.components.size(); ++c) names.push_back(layer.channel(c));
     Image image(window_, full_width_, full_height_, std::move(names));
     parallel_for(static_cast<std::size_t>(window_.height), 0, [&](std::size_t row) {
         const int y = window_.y + static_cast<int>(row);
@@ -165,6 +168,7 @@ Image Film::develop(Channels channels) const
             const std::size_t at = index({x, y});
             float* out = image.pixel(x, y);
             for (int c = 0; c < 3; ++c) out[c] = static_cast<float>(mean(at, c));
+            if (layers_) layers_->develop(at, pixels_[at].count, out + beauty);
             if (!evidence) continue;
             for (int c = 0; c < 3; ++c) out[3 + c] = static_cast<float>(variance_of_mean(at, c));
             out[6] = static_cast<float>(pixels_[at].contributing);
@@ -175,6 +179,10 @@ Image Film::develop(Channels channels) const
 
 Film& Film::operator+=(const Film& other)
 {
+    if (layers() != other.layers())
+        throw Error(fmt::format("films with different layers cannot be added: one has {}, the other {}",
+                                layer_names(layers()), layer_names(other.layers())));
+    if (layers_) *layers_ += *other.layers_;
     for (std::size_t i = 0; i < pixels_.size(); ++i) {
         Pixel& mine = pixels_[i];
         const Pixel& theirs = other.pixels_[i];
@@ -195,8 +203,8 @@ Film::Words Film::words(Vec2i pixel) const
     const Pixel& p = pixels_[index(pixel)];
     Words words{};
     for (std::size_t c = 0; c < 3; ++c) {
-        put(&words[4 * c], p.sum[c]);
-        put(&words[12 + 4 * c], p.squares[c]);
+        put_sum(&words[4 * c], p.sum[c]);
+        put_sum(&words[12 + 4 * c], p.squares[c]);
     }
     words[24] = p.count;
     words[25] = p.contributing;
@@ -207,8 +215,8 @@ void Film::set_words(Vec2i pixel, const Words& words)
 {
     Pixel& p = pixels_[index(pixel)];
     for (std::size_t c = 0; c < 3; ++c) {
-        p.sum[c] = get(&words[4 * c]);
-        p.squares[c] = get(&words[12 + 4 * c]);
+        p.sum[c] = get_sum(&words[4 * c]);
+        p.squares[c] = get_sum(&words[12 + 4 * c]);
     }
     p.count = words[24];
     p.contributing = words[25];
@@ -224,7 +232,7 @@ Film::LargeWords Film::large_words(Vec2i pixel) const
     LargeWords words{};
     const auto found = large_squares_->of_pixel.find(index(pixel));
     if (found != large_squares_->of_pixel.end())
-        for (std::size_t c = 0; c < 3; ++c) put(&words[4 * c], found->second[c]);
+        for (std::size_t c = 0; c < 3; ++c) put_sum(&words[4 * c], found->second[c]);
     return words;
 }
 
@@ -232,7 +240,27 @@ void Film::set_large_words(Vec2i pixel, const LargeWords& words)
 {
     large_squares_->of_pixel.erase(index(pixel));
     if (words == LargeWords{}) return;
-    for (std::size_t c = 0; c < 3; ++c) large_squares_->of_pixel[index(pixel)][c] = get(&words[4 * c]);
+    for (std::size_t c = 0; c < 3; ++c) large_squares_->of_pixel[index(pixel)][c] = get_sum(&words[4 * c]);
+}
+
+std::vector<std::string> Film::layer_word_names() const
+{
+    return layers_ ? layers_->word_names() : std::vector<std::string>();
+}
+
+void Film::layer_words(Vec2i pixel, std::span<std::uint32_t> words) const
+{
+    if (layers_) layers_->words(index(pixel), words);
+}
+
+void Film::set_layer_words(Vec2i pixel, std::span<const std::uint32_t> words)
+{
+    if (layers_) layers_->set_words(index(pixel), words);
+}
+
+bool Film::can_have_layer_words(std::span<const std::uint32_t> words, std::uint64_t samples) const
+{
+    return !layers_ || layers_->is_possible(words, samples);
 }
 
 } // namespace plumb

@@ -3,6 +3,7 @@
 #include "plumb/render.h"
 
 #include "core/parallel.h"
+#include "plumb/aovs.h"
 #include "plumb/error.h"
 #include "render/tiles.h"
 #include "scene/float_mode.h"
@@ -49,8 +50,14 @@ SampleTaken take_sample(const RenderJob& job, Tracer& tracer, Sampler& sampler, 
 
 // What one thread needs and gathers.
 struct Worker {
-    Worker(const RenderJob& job, std::uint64_t total) : tracer(job.scene), sampler(job.sampler->clone(total))
+    Worker(const RenderJob& job, std::uint64_t total, bool has_layers)
+        : tracer(job.scene, nullptr, has_layers ? &first : nullptr), sampler(job.sampler->clone(total))
     {}
+    Worker(const Worker&) = delete; // the tracer points to it
+    Worker& operator=(const Worker&) = delete;
+
+    FirstSurfaces first; // of the sample being taken, if there are layers
+    AovMeter::Values values;
     Tracer tracer;
     std::unique_ptr<Sampler> sampler;
     LeftOut left_out;
@@ -102,16 +109,15 @@ std::vector<SampleBlock> cut_into_work(const SampleSet& set, std::uint64_t first
 void check_total(const RenderJob& job, std::uint64_t end, std::uint64_t total)
 {
     if (job.sampler->depends_on_total() && end > total)
-        throw Error(
-            fmt::format("sample {} is asked for, but the sampler spreads a total of {} samples over a "
-                        "pixel and has no others; give the total with --spp",
-                        end - 1, total));
+        throw Error(fmt::format("sample {} was requested, but the sampler has a total of {} samples per "
+                                "pixel; give the total with --spp",
+                                end - 1, total));
 }
 
 RenderState nothing_taken(const RenderJob& job, const RenderOptions& options)
 {
     const Vec2i size = job.camera->resolution();
-    return {Film(render_window(job, options), size.x, size.y), {}, {}, {}};
+    return {Film(render_window(job, options), size.x, size.y, layers_of(options.aovs)), {}, {}, {}};
 }
 
 } // namespace
@@ -149,7 +155,7 @@ PixelRect render_window(const RenderJob& job, const RenderOptions& options)
     const PixelRect& c = *options.crop;
     if (c.width < 1 || c.height < 1 || c.x < 0 || c.y < 0 || c.x > size.x - c.width ||
         c.y > size.y - c.height)
-        throw Error(fmt::format("the crop {},{},{},{} is not inside the picture of {}x{} pixels", c.x, c.y,
+        throw Error(fmt::format("the crop {},{},{},{} is not inside the image of {}x{} pixels", c.x, c.y,
                                 c.width, c.height, size.x, size.y));
     return c;
 }
@@ -174,7 +180,11 @@ Rendering::Rendering(const RenderJob& job, const RenderOptions& options)
 
 Rendering::Rendering(const RenderJob& job, const RenderOptions& options, RenderState state)
     : job_(job), options_(options), state_(std::move(state))
-{}
+{
+    if (const ChannelSet wanted = layers_of(options.aovs); state_.film.layers() != wanted)
+        throw Error(fmt::format("what is rendered has the layers {}, and those asked for are {}",
+                                layer_names(state_.film.layers()), layer_names(wanted)));
+}
 
 bool Rendering::take(const SampleSet& wanted, const ProgressReport& progress, const Pause& pause)
 {
@@ -188,7 +198,9 @@ bool Rendering::take(const SampleSet& wanted, const ProgressReport& progress, co
     const std::uint64_t total = render_samples(job_, options_);
     check_total(job_, end, total);
     Reporter reporter(progress, (wanted & state_.taken).count(), wanted.count());
-    oneapi::tbb::enumerable_thread_specific<Worker> workers([&] { return Worker(job_, total); });
+    oneapi::tbb::enumerable_thread_specific<Worker> workers(
+        [&] { return Worker(job_, total, !state_.film.layers().empty()); });
+    const AovMeter meter(options_.aovs, job_.scene, *job_.camera);
     std::atomic<bool> paused = false;
 
     // How much of the block was done: its first rows.
@@ -206,9 +218,13 @@ bool Rendering::take(const SampleSet& wanted, const ProgressReport& progress, co
             }
             for (int x = tile.x; x < tile.x + tile.width; ++x) {
                 for (std::uint64_t index = block.first; index < block.last; ++index) {
+                    if (!meter.empty()) worker.first = {};
                     const SampleTaken sample =
                         take_sample(job_, worker.tracer, *worker.sampler, options_.seed, {x, y}, index);
-                    const Verdict verdict = state_.film.add({x, y}, sample.radiance, sample.weight);
+                    const Verdict verdict =
+                        meter.empty() ? state_.film.add({x, y}, sample.radiance, sample.weight)
+                                      : state_.film.add({x, y}, sample.radiance, sample.weight,
+                                                        meter.measure(worker.first, worker.values), index);
                     if (verdict != Verdict::accepted)
                         worker.left_out.add({{x, y}, index, sample.radiance, verdict});
                 }
@@ -245,7 +261,7 @@ ReplayedSample replay(const RenderJob& job, std::uint64_t seed, Vec2i pixel, std
 {
     const Vec2i size = job.camera->resolution();
     if (pixel.x < 0 || pixel.y < 0 || pixel.x >= size.x || pixel.y >= size.y)
-        throw Error(fmt::format("pixel {},{} is not inside the picture of {}x{} pixels", pixel.x, pixel.y,
+        throw Error(fmt::format("pixel {},{} is not inside the image of {}x{} pixels", pixel.x, pixel.y,
                                 size.x, size.y));
     const std::uint64_t total = job.sampler->samples_per_pixel();
     check_total(job, sample_index + 1, total);

@@ -20,12 +20,13 @@
 namespace plumb {
 namespace {
 
-constexpr int format_version = 2;
-const std::string no_samples = "none"; // files keep no empty text
+constexpr int format_version = 3;
+constexpr int version_without_layers = 2; // is read as well
+const std::string no_samples = "none";    // files keep no empty text
 
 constexpr std::size_t small_count = std::tuple_size_v<Film::Words>;
-constexpr std::size_t word_count = small_count + std::tuple_size_v<Film::LargeWords>;
-using AllWords = std::array<std::uint32_t, word_count>;
+constexpr std::size_t beauty_count = small_count + std::tuple_size_v<Film::LargeWords>;
+using AllWords = std::vector<std::uint32_t>; // of a pixel: beauty_count, and those of the layers
 
 // "sum.R.0" to "sum.B.3" for the kind "sum".
 void add_names(std::vector<std::string>& names, const char* kind)
@@ -35,28 +36,31 @@ void add_names(std::vector<std::string>& names, const char* kind)
 }
 
 // What the channels of AllWords are called.
-const std::vector<std::string>& word_names()
+std::vector<std::string> word_names(const Film& film)
 {
-    static const std::vector<std::string> all = [] {
-        std::vector<std::string> names;
-        add_names(names, "sum");
-        add_names(names, "squares");
-        names.insert(names.end(), {"count", "contributing"});
-        add_names(names, "large");
-        return names;
-    }();
-    return all;
+    std::vector<std::string> names;
+    add_names(names, "sum");
+    add_names(names, "squares");
+    names.insert(names.end(), {"count", "contributing"});
+    add_names(names, "large");
+    const std::vector<std::string> layers = film.layer_word_names();
+    names.insert(names.end(), layers.begin(), layers.end());
+    return names;
 }
 
-AllWords words_of(const Film& film, Vec2i pixel)
+AllWords room_for_words(const Film& film)
 {
-    AllWords all{};
+    return AllWords(beauty_count + film.layer_word_names().size());
+}
+
+void get_words(const Film& film, Vec2i pixel, AllWords& all)
+{
     const Film::Words words = film.words(pixel);
     std::copy(words.begin(), words.end(), all.begin());
-    if (!film.has_large_squares()) return all;
+    film.layer_words(pixel, std::span(all).subspan(beauty_count));
+    if (!film.has_large_squares()) return;
     const Film::LargeWords large = film.large_words(pixel);
     std::copy(large.begin(), large.end(), all.begin() + small_count);
-    return all;
 }
 
 void set_words(Film& film, Vec2i pixel, const AllWords& all)
@@ -67,6 +71,7 @@ void set_words(Film& film, Vec2i pixel, const AllWords& all)
     Film::LargeWords large;
     std::copy_n(all.begin() + small_count, large.size(), large.begin());
     if (large != Film::LargeWords{}) film.set_large_words(pixel, large);
+    film.set_layer_words(pixel, std::span(all).subspan(beauty_count));
 }
 
 // part(y) for each row of the window, on all threads.
@@ -80,17 +85,19 @@ void for_each_row(const PixelRect& window, const std::function<void(int)>& part)
 std::vector<std::size_t> words_in_use(const Film& film)
 {
     const PixelRect& window = film.window();
-    std::vector<AllWords> of_row(static_cast<std::size_t>(window.height), AllWords{});
+    std::vector<AllWords> of_row(static_cast<std::size_t>(window.height));
+    const AllWords room = room_for_words(film);
     for_each_row(window, [&](int y) {
-        AllWords bits{};
+        AllWords bits = room;
+        AllWords words = room;
         for (int x = window.x; x < window.x + window.width; ++x) {
-            const AllWords words = words_of(film, {x, y});
-            for (std::size_t i = 0; i < word_count; ++i) bits[i] |= words[i];
+            get_words(film, {x, y}, words);
+            for (std::size_t i = 0; i < words.size(); ++i) bits[i] |= words[i];
         }
-        of_row[static_cast<std::size_t>(y - window.y)] = bits;
+        of_row[static_cast<std::size_t>(y - window.y)] = std::move(bits);
     });
     std::vector<std::size_t> used;
-    for (std::size_t i = 0; i < word_count; ++i)
+    for (std::size_t i = 0; i < room.size(); ++i)
         if (std::any_of(of_row.begin(), of_row.end(), [i](const AllWords& bits) { return bits[i] != 0; }))
             used.push_back(i);
     return used;
@@ -99,12 +106,15 @@ std::vector<std::size_t> words_in_use(const Film& film)
 // Rows of pixels as they are in the file: for each pixel 3 floats, for viewers, and the words in use.
 class RowWriter {
 public:
-    explicit RowWriter(const Film& film) : film_(film), picture_(film.develop()), used_(words_in_use(film)) {}
+    explicit RowWriter(const Film& film)
+        : film_(film), picture_(film.develop()), used_(words_in_use(film)), room_(room_for_words(film))
+    {}
 
     std::vector<std::string> channels() const
     {
+        const std::vector<std::string> all = word_names(film_);
         std::vector<std::string> names;
-        for (const std::size_t i : used_) names.push_back(word_names()[i]);
+        for (const std::size_t i : used_) names.push_back(all[i]);
         return names;
     }
 
@@ -112,11 +122,12 @@ public:
     {
         const PixelRect& window = film_.window();
         std::uint32_t* out = row.data();
+        AllWords words = room_;
         for (int x = window.x; x < window.x + window.width; ++x) {
             const Color color = picture_.color(x, y);
             for (const float value : {color.r, color.g, color.b})
                 *out++ = std::bit_cast<std::uint32_t>(value);
-            const AllWords words = words_of(film_, {x, y});
+            get_words(film_, {x, y}, words);
             for (const std::size_t i : used_) *out++ = words[i];
         }
     }
@@ -125,10 +136,11 @@ private:
     const Film& film_;
     Image picture_;
     std::vector<std::size_t> used_;
+    AllWords room_;
 };
 
 // Whether so many samples can have such sums (film.h).
-bool is_possible(const AllWords& words, std::uint64_t samples)
+bool is_possible(const Film& film, const AllWords& words, std::uint64_t samples)
 {
     const std::uint64_t count = words[24];
     const std::uint64_t contributing = words[25];
@@ -142,7 +154,7 @@ bool is_possible(const AllWords& words, std::uint64_t samples)
         if (!is_below(4 * channel + 3, count << 5) || !is_below(12 + 4 * channel + 3, count << 4) ||
             !is_below(small_count + 4 * channel + 3, count))
             return false;
-    return true;
+    return film.can_have_layer_words(std::span(words).subspan(beauty_count), count);
 }
 
 // Returns whether all of the row is possible.
@@ -152,11 +164,11 @@ bool set_row(Film& film, int y, std::span<const std::uint32_t> row, const std::v
     const PixelRect& window = film.window();
     const std::uint32_t* in = row.data();
     bool possible = true;
+    AllWords words = room_for_words(film);
     for (int x = window.x; x < window.x + window.width; ++x) {
         in += 3;
-        AllWords words{};
         for (const std::size_t i : used) words[i] = *in++;
-        possible = possible && is_possible(words, samples);
+        possible = possible && is_possible(film, words, samples);
         set_words(film, {x, y}, words);
     }
     return possible;
@@ -174,7 +186,7 @@ std::string left_out_text(const LeftOut& left_out)
 
 [[noreturn]] void reject(std::string_view name)
 {
-    throw Error(fmt::format("{} in its header makes no sense", name));
+    throw Error(fmt::format("{} in its header is invalid", name));
 }
 
 // The text must consist of at least one number and at most so many, with one space between two.
@@ -227,6 +239,15 @@ RayCounts rays_from(const std::string& text)
     return {numbers[0], numbers[1], numbers[2]};
 }
 
+ChannelSet layers_from(const std::string& text)
+{
+    try {
+        return channel_set_from_text(text);
+    } catch (const Error&) {
+        reject("plumb:stateLayers");
+    }
+}
+
 // What a reader of a state's header looks for.
 class Entries {
 public:
@@ -257,14 +278,15 @@ StateFile empty_state(const WordImage& image)
 {
     const Metadata header = state_header(image.metadata);
     const Entries entries(header);
-    if (!entries.has("plumb:state")) throw Error("it is no checkpoint and no part of a picture");
-    if (const int version = entries.get<int>("plumb:state"); version != format_version)
-        throw Error(
-            fmt::format("its format has the version {}, and this program knows {}", version, format_version));
+    if (!entries.has("plumb:state")) throw Error("it is not a checkpoint or a partial render");
+    const int version = entries.get<int>("plumb:state");
+    if (version != format_version && version != version_without_layers)
+        throw Error(fmt::format("its format has version {}, but this program reads version {}", version,
+                                format_version));
     const PixelRect& data = image.data;
     if (data.x < 0 || data.y < 0 || data.width < 1 || data.height < 1 ||
         data.width > image.full_width - data.x || data.height > image.full_height - data.y)
-        throw Error("its pixels are not those of a picture");
+        throw Error("its pixels are not those of an image");
     const std::string& text = entries.get<std::string>("plumb:stateSamples");
     const auto samples = text == no_samples ? SampleSet() : SampleSet::from_text(text);
     if (!samples || !(*samples - SampleSet(SampleBlock{data, 0, film_max_samples})).empty())
@@ -274,9 +296,13 @@ StateFile empty_state(const WordImage& image)
     if (!(seconds >= 0.0 && seconds <= longest)) reject("plumb:stateSeconds");
     const RayCounts rays = rays_from(entries.get<std::string>("plumb:stateRays"));
     const LeftOut left_out = left_out_from(entries.get<std::string>("plumb:stateLeftOut"), data);
-    StateFile file{{Film(data, image.full_width, image.full_height), *samples, rays, left_out},
-                   without(header, "plumb:state"),
-                   {image.full_width, image.full_height}};
+    ChannelSet layers;
+    if (version != version_without_layers)
+        layers = layers_from(entries.get<std::string>("plumb:stateLayers"));
+    StateFile file{
+        {Film(data, image.full_width, image.full_height, std::move(layers)), *samples, rays, left_out},
+        without(header, "plumb:state"),
+        {image.full_width, image.full_height}};
     file.state.seconds = seconds;
     return file;
 }
@@ -289,6 +315,7 @@ std::vector<unsigned char> encode_state(const RenderState& state, Vec2i resoluti
     const PixelRect& window = state.film.window();
     WordImage image{window, resolution.x, resolution.y, {"R", "G", "B"}, writer.channels(), header};
     image.metadata.emplace_back("plumb:state", format_version);
+    image.metadata.emplace_back("plumb:stateLayers", to_text(state.film.layers()));
     image.metadata.emplace_back("plumb:stateSamples", state.taken.empty() ? no_samples : state.taken.text());
     image.metadata.emplace_back(
         "plumb:stateRays", fmt::format("{} {} {}", state.rays.camera, state.rays.bounce, state.rays.shadow));
@@ -345,8 +372,9 @@ StateFile read_state(const std::filesystem::path& path)
                 file.emplace(empty_state(image));
                 samples = file->state.taken.samples_per_pixel(image.data).most;
                 std::vector<std::string> names;
-                for (std::size_t i = 0; i < word_count; ++i) {
-                    const std::string& name = word_names()[i];
+                const std::vector<std::string> all = word_names(file->state.film);
+                for (std::size_t i = 0; i < all.size(); ++i) {
+                    const std::string& name = all[i];
                     const std::vector<std::string>& there = image.word_channels;
                     if (std::find(there.begin(), there.end(), name) == there.end()) continue;
                     used.push_back(i);
@@ -363,9 +391,9 @@ StateFile read_state(const std::filesystem::path& path)
                 possible = set_row(file->state.film, y, row, used, samples) && possible;
             });
         if (hash->hex() != expected_hash) throw Error("it is damaged: its hash is wrong");
-        if (!possible) throw Error("it has sums that its samples cannot have");
+        if (!possible) throw Error("its sums do not fit its samples");
     } catch (const Error& error) {
-        throw Error(fmt::format("cannot go on from '{}': {}", path.string(), error.what()));
+        throw Error(fmt::format("cannot resume from '{}': {}", path.string(), error.what()));
     }
     return std::move(*file);
 }

@@ -115,14 +115,14 @@ inline Word reverse_bits(Word x)
 
 } // namespace
 
-/// Owen-scrambled Sobol points (Burley 2020): the samples of a pixel are spread evenly, so that pictures have less noise.
+/// Owen-scrambled Sobol points (Burley 2020): spreads the samples of a pixel evenly, for less noise.
 ///
 /// Each vertex of a path has two four-dimensional sets of its own, shuffled and scrambled by hashes of seed, pixel and
 /// vertex: one for the next direction, one for the light. Any 2^k samples from a multiple of 2^k on fill the cells of all
 /// grids of 2^k cells in a set's first two dimensions with one each: powers of two are the best numbers of samples,
-/// though any will do. Pictures can be gone on with and merged as with `independent`. The samples of a pixel are not
-/// independent: error bars, made as if they were, are upper bounds, and what stops by them or compares with them errs on
-/// the side of caution.
+/// though any will do. Renderings resume and merge as with `independent`. The samples of a pixel are not independent, so
+/// their variance overestimates the error: error bars are upper bounds, and what stops by them or compares with them is
+/// conservative.
 ///
 ///     sampleCount   integer   samples per pixel, from 1 to 2^26   (default 1)
 ///

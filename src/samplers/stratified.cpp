@@ -36,9 +36,9 @@ std::uint32_t permute(std::uint32_t number, std::uint32_t count, std::uint64_t k
 /// single number as many intervals; each sample of the pixel is in another cell, in random orders of their own.
 ///
 /// The grid is nearly square; if their number has no such factors, a few cells stay empty. The points depend on the total
-/// number of samples: a picture is not gone on with to more samples, nor are parts of pictures with different numbers
-/// merged, and --time and --target-error ask for --spp beside them (`sobol` needs none of this, and has less noise). The
-/// samples of a pixel are not independent: error bars, made as if they were, are upper bounds.
+/// number of samples: a rendering cannot be resumed to more samples, parts with different numbers cannot be merged, and
+/// --time and --target-error need --spp as well (`sobol` has no such limits, and less noise). The samples of a pixel are
+/// not independent, so their variance overestimates the error: error bars are upper bounds.
 ///
 ///     sampleCount   integer   samples per pixel, from 1 to 2^26   (default 1)
 ///

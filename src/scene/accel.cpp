@@ -91,43 +91,42 @@ Ray our_ray(const RTCRay& r)
     return {{r.org_x, r.org_y, r.org_z}, {r.dir_x, r.dir_y, r.dir_z}, r.tnear, r.tfar};
 }
 
-// The sphere as Embree's user geometry: tested in our own double-precision arithmetic, one ray at a time.
-template <class SphereGeometry>
-void sphere_bounds(const RTCBoundsFunctionArguments* args)
+// Primitives as Embree's user geometry: tested in our own arithmetic, one ray at a time.
+template <class UserGeometry>
+void user_bounds(const RTCBoundsFunctionArguments* args)
 {
-    const auto& sphere = *static_cast<const SphereGeometry*>(args->geometryUserPtr);
+    const auto& geometry = *static_cast<const UserGeometry*>(args->geometryUserPtr);
+    const Box3f box = geometry.primitives->bounds(args->primID);
     RTCBounds& b = *args->bounds_o;
-    const auto low = [&](float c) { return next_float(c - sphere.radius, false); };
-    const auto high = [&](float c) { return next_float(c + sphere.radius, true); };
-    b.lower_x = low(sphere.center.x);
-    b.lower_y = low(sphere.center.y);
-    b.lower_z = low(sphere.center.z);
-    b.upper_x = high(sphere.center.x);
-    b.upper_y = high(sphere.center.y);
-    b.upper_z = high(sphere.center.z);
+    b.lower_x = next_float(box.min.x, false);
+    b.lower_y = next_float(box.min.y, false);
+    b.lower_z = next_float(box.min.z, false);
+    b.upper_x = next_float(box.max.x, true);
+    b.upper_y = next_float(box.max.y, true);
+    b.upper_z = next_float(box.max.z, true);
 }
 
-template <class SphereGeometry>
-void sphere_intersect(const RTCIntersectFunctionNArguments* args)
+template <class UserGeometry>
+void user_intersect(const RTCIntersectFunctionNArguments* args)
 {
     if (args->valid[0] == 0) return;
-    const auto& sphere = *static_cast<const SphereGeometry*>(args->geometryUserPtr);
+    const auto& geometry = *static_cast<const UserGeometry*>(args->geometryUserPtr);
     auto& ray_hit = *reinterpret_cast<RTCRayHit*>(args->rayhit);
-    const std::optional<double> t = intersect_sphere(our_ray(ray_hit.ray), sphere.center, sphere.radius);
+    const std::optional<double> t = geometry.primitives->intersect(our_ray(ray_hit.ray), args->primID);
     if (!t) return;
     ray_hit.ray.tfar = static_cast<float>(*t);
-    ray_hit.hit.geomID = sphere.geometry;
+    ray_hit.hit.geomID = geometry.id;
     ray_hit.hit.primID = args->primID;
     ray_hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
 }
 
-template <class SphereGeometry>
-void sphere_occluded(const RTCOccludedFunctionNArguments* args)
+template <class UserGeometry>
+void user_occluded(const RTCOccludedFunctionNArguments* args)
 {
     if (args->valid[0] == 0) return;
-    const auto& sphere = *static_cast<const SphereGeometry*>(args->geometryUserPtr);
+    const auto& geometry = *static_cast<const UserGeometry*>(args->geometryUserPtr);
     auto& ray = *reinterpret_cast<RTCRay*>(args->ray);
-    if (intersect_sphere(our_ray(ray), sphere.center, sphere.radius)) ray.tfar = -infinity;
+    if (geometry.primitives->intersect(our_ray(ray), args->primID)) ray.tfar = -infinity;
 }
 
 } // namespace
@@ -148,16 +147,16 @@ public:
         attach(geometry);
     }
 
-    void add_sphere(const Vec3f& center, float radius) override
+    void add_user(const Primitives& primitives) override
     {
         const auto id = static_cast<std::uint32_t>(accel_.object_of_geometry_.size());
-        accel_.spheres_.push_back(std::make_unique<SphereGeometry>(SphereGeometry{center, radius, id}));
+        accel_.user_geometries_.push_back(std::make_unique<UserGeometry>(UserGeometry{&primitives, id}));
         RTCGeometry geometry = rtcNewGeometry(accel_.device_, RTC_GEOMETRY_TYPE_USER);
-        rtcSetGeometryUserPrimitiveCount(geometry, 1);
-        rtcSetGeometryUserData(geometry, accel_.spheres_.back().get());
-        rtcSetGeometryBoundsFunction(geometry, sphere_bounds<SphereGeometry>, nullptr);
-        rtcSetGeometryIntersectFunction(geometry, sphere_intersect<SphereGeometry>);
-        rtcSetGeometryOccludedFunction(geometry, sphere_occluded<SphereGeometry>);
+        rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(primitives.count()));
+        rtcSetGeometryUserData(geometry, accel_.user_geometries_.back().get());
+        rtcSetGeometryBoundsFunction(geometry, user_bounds<UserGeometry>, nullptr);
+        rtcSetGeometryIntersectFunction(geometry, user_intersect<UserGeometry>);
+        rtcSetGeometryOccludedFunction(geometry, user_occluded<UserGeometry>);
         attach(geometry);
     }
 
@@ -258,7 +257,10 @@ std::optional<SurfacePoint> Scene::intersect(const Ray& ray) const
         point.shape = object.shape.get();
         point.bsdf = object.bsdf.get();
         point.emitter = object.emitter.get();
-        point.emitter_index = emitter_of_object_[hit.object];
+        const ObjectFacts facts = facts_[hit.object];
+        point.emitter_index = facts.emitter_index;
+        if (facts.is_oriented) [[unlikely]]
+            point.shading = Frame(point.shading.n, point.shape->tangents(point).dp_du);
         return point;
     };
     return in_optional(surface_point);

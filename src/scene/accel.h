@@ -37,10 +37,9 @@ public:
 
 private:
     class Builder;
-    struct SphereGeometry {
-        Vec3f center;
-        float radius;
-        std::uint32_t geometry;
+    struct UserGeometry {
+        const Primitives* primitives;
+        std::uint32_t id;
     };
 
     static bool on_memory(void* accel, std::ptrdiff_t bytes, bool post);
@@ -50,7 +49,7 @@ private:
     RTCDeviceTy* device_ = nullptr;
     RTCSceneTy* scene_ = nullptr;
     std::vector<std::uint32_t> object_of_geometry_;
-    std::vector<std::unique_ptr<SphereGeometry>> spheres_;
+    std::vector<std::unique_ptr<UserGeometry>> user_geometries_; // Embree knows their addresses
 };
 
 } // namespace plumb

@@ -29,7 +29,8 @@ Scene::Scene(std::vector<SceneObject> objects, std::vector<std::unique_ptr<Emitt
     };
     for (const SceneObject& object : objects_) {
         if (object.emitter) object.shape->prepare_sampling();
-        emitter_of_object_.push_back(object.emitter ? add_emitter(*object.emitter) : 0);
+        facts_.push_back(
+            {object.emitter ? add_emitter(*object.emitter) : 0, object.bsdf && object.bsdf->is_oriented()});
     }
     for (const auto& light : lights_) add_emitter(*light);
 

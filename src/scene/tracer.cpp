@@ -32,7 +32,22 @@ RayCounts& RayCounts::operator+=(const RayCounts& other)
     return *this;
 }
 
-std::optional<SurfacePoint> Tracer::intersect_with_log(const Ray& ray, RayKind kind)
+void FirstSurfaces::meet(const Ray& ray, RayKind kind, const SurfacePoint& hit)
+{
+    if (kind == RayKind::shadow || not_delta || (kind == RayKind::camera) == surface.has_value()) return;
+    distance_ += length(hit.position - ray.origin);
+    const SeenSurface seen{hit, normalize(ray.direction), distance_, through_};
+    if (!surface) surface = seen;
+    const bool is_delta = (hit.bsdf->lobes().bits & ~delta_lobes.bits) == 0;
+    if (!is_delta || hit.emitter) not_delta = seen;
+}
+
+void FirstSurfaces::scatter(const Color& weight)
+{
+    through_ *= weight;
+}
+
+std::optional<SurfacePoint> Tracer::intersect_watched(const Ray& ray, RayKind kind)
 {
     if (!is_traceable(ray)) {
         failed_ = true;
@@ -40,6 +55,7 @@ std::optional<SurfacePoint> Tracer::intersect_with_log(const Ray& ray, RayKind k
         return std::nullopt;
     }
     std::optional<SurfacePoint> hit = scene_.intersect(ray);
+    if (hit && first_) first_->meet(ray, kind, *hit);
     if (logging()) {
         log(PathEvent::Kind::ray,
             fmt::format("{} ray from {} along {}", name_of(kind), text(ray.origin), text(ray.direction)));

@@ -25,7 +25,7 @@ bool lights_near(const Scene& scene, const Vec3f& p, const Vec3f& wi, float size
 {
     const auto hit = scene.intersect({p + wi * size, -wi});
     if (!hit) return false;
-    return hit->bsdf->lobes().has_any(transmission_lobes) || dot(hit->geometric_normal, wi) > 0.f;
+    return hit->bsdf->has_back() || dot(hit->geometric_normal, wi) > 0.f;
 }
 
 // Looks through points in the boxes around the objects, or around some of very many.
@@ -78,11 +78,10 @@ void warn_of_idle_suns(const Element& root, const RenderJob& job, const Dialect&
         if (!light || !(sun.power() > 0.f) || lights_anything(job.scene, light->wi)) return;
         diagnostics.warning(
             element.place(),
-            fmt::format(
-                "this light meets the front of no surface, and lights nothing: it goes along ({:.3g}, "
-                "{:.3g}, {:.3g}), for 'direction' {}",
-                -light->wi.x, -light->wi.y, -light->wi.z,
-                dialect.sun_points_to_light ? "points towards the light" : "is where it goes"));
+            fmt::format("this light reaches the front of no surface, so it lights nothing: it goes along "
+                        "({:.3g}, {:.3g}, {:.3g}), for 'direction' {}",
+                        -light->wi.x, -light->wi.y, -light->wi.z,
+                        dialect.sun_points_to_light ? "points towards the light" : "is where it goes"));
     });
 }
 

@@ -7,6 +7,7 @@
 #include "scene_file/build_child.h"
 #include "scene_file/foreign_names.h"
 #include "scene_file/placement.h"
+#include "scene_file/shared_objects.h"
 #include "scene_file/values.h"
 
 #include <algorithm>
@@ -41,6 +42,7 @@ public:
     SceneParts build()
     {
         check_attributes(root_, {}, {"dialect", "name", "id"}, diagnostics_);
+        SharedObjects shared(root_, context_);
         for (const Element& child : root_.children) {
             const std::string_view kind = kind_of(child);
             if (kind == "shape" || kind == "emitter")
@@ -51,6 +53,8 @@ public:
                 keep_only(integrator_, child);
             else if (kind == "sampler")
                 keep_only(sampler_, child);
+            else if (kind == "bsdf" || kind == "texture")
+                check_shared(child);
             else if (is_property_tag(child.tag))
                 check_property(child);
             else
@@ -60,6 +64,7 @@ public:
         build_camera();
         build_integrator();
         build_sampler();
+        context_.shared = nullptr;
         return std::move(parts_);
     }
 
@@ -73,6 +78,16 @@ private:
     {
         if (child.tag == "emitter" && child.value("type") == "environment") keep_only(environment_, child);
         children_.push_back(&child);
+    }
+
+    void check_shared(const Element& child)
+    {
+        if (!child.value("id").empty()) return;
+        diagnostics_.error(
+            child.place(),
+            fmt::format("a <{0}> that stands in <scene> needs an id, for a <ref> to name: <{0} "
+                        "id=\"...\" ...>",
+                        child.tag));
     }
 
     void build_children()
@@ -151,11 +166,10 @@ private:
                 if (child.value("name") == "width" && child.attribute("value"))
                     at = child.value_place(*child.attribute("value"));
         }
-        diagnostics_.error(
-            at,
-            fmt::format("a picture of {} x {} pixels needs {:.1f} GB of memory, and {:.1f} GB are "
-                        "available; lower width and height",
-                        resolution.x, resolution.y, needed * 1e-9, static_cast<double>(*available) * 1e-9));
+        diagnostics_.error(at, fmt::format("an image of {} x {} pixels needs {:.1f} GB of memory, but only "
+                                           "{:.1f} GB are available; lower width and height",
+                                           resolution.x, resolution.y, needed * 1e-9,
+                                           static_cast<double>(*available) * 1e-9));
     }
 
     // --- Integrator and sampler ---

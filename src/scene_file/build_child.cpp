@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "scene_file/build_child.h"
 
+#include "scene_file/shared_objects.h"
+
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -12,7 +14,7 @@ namespace {
 class ChildBuilder {
 public:
     ChildBuilder(const Element& element, const LoadContext& scene)
-        : element_(element), context_{built_.diagnostics, scene.dialect, scene.lenient, {}}
+        : element_(element), context_{built_.diagnostics, scene.dialect, scene.lenient, {}, 0, scene.shared}
     {}
 
     BuiltChild build()
@@ -32,13 +34,13 @@ private:
         const Element* bsdf = nullptr;
         const Element* emitter = nullptr;
         for (const Element& child : element_.children) {
-            if (child.tag == "bsdf") keep_only(bsdf, child, context_.diagnostics);
+            if (child.tag == "bsdf" || child.tag == "ref") keep_only(bsdf, child, context_.diagnostics);
             if (child.tag == "emitter") keep_only(emitter, child, context_.diagnostics);
         }
         SceneObject& object = built_.object;
-        ObjectReader reader(element_, context_, {"bsdf", "emitter"});
+        ObjectReader reader(element_, context_, {"bsdf", "ref", "emitter"});
         object.shape = reader.build(shape_types());
-        object.bsdf = bsdf ? ObjectReader(*bsdf, context_).build(bsdf_types()) : default_bsdf();
+        object.bsdf = bsdf ? build_bsdf(*bsdf, context_) : default_bsdf();
         if (emitter) object.emitter = build_area_light(*emitter, object.shape.get());
         const SourceLocation at = element_.place();
         object.name = fmt::format("{} '{}' ({}:{})", element_.tag, reader.type(),

@@ -23,6 +23,7 @@ constexpr Entry<Shape> shapes[] = {
     {"obj", build<class TriangleMesh>, "TriangleMesh"},
     {"sphere", build<class Sphere>, "Sphere"},
     {"rectangle", build<class Rectangle>, "Rectangle"},
+    {"disk", build<class Disk>, "Disk"},
 };
 
 constexpr Entry<Bsdf> bsdfs[] = {
@@ -34,6 +35,8 @@ constexpr Entry<Bsdf> bsdfs[] = {
     {"roughsubstrate", build<class RoughSubstrate>, "RoughSubstrate"},
     {"roughdielectric", build<class RoughDielectric>, "RoughDielectric"},
     {"phong", build<class Phong>, "Phong"},
+    {"normalmap", build<class NormalMap>, "NormalMap"},
+    {"twosided", build<class TwoSided>, "TwoSided"},
 };
 
 constexpr Entry<Texture> textures[] = {

@@ -97,7 +97,7 @@ std::optional<DialectEvidence> decide(const std::vector<Mark>& marks, bool by_na
 DialectEvidence undecided(const std::vector<Mark>& marks)
 {
     DialectEvidence evidence;
-    evidence.reason = "nothing in the file is peculiar to one course";
+    evidence.reason = "no mark in the file indicates a course";
     // The first mark of each course that has its own reading.
     std::map<unsigned, std::string> text_of;
     for (const Mark& mark : marks)
@@ -108,7 +108,7 @@ DialectEvidence undecided(const std::vector<Mark>& marks)
     if (text_of.size() == 1) {
         const auto& [who, text] = *text_of.begin();
         if (decides_for_plumb(marks)) return evidence;
-        evidence.reason = fmt::format("{} alone, as {} files have it, decides nothing", text, names(who));
+        evidence.reason = fmt::format("{} alone, as {} files have it, is not enough", text, names(who));
     } else {
         evidence.reason = "the file mixes ";
         for (const auto& [who, text] : text_of)
@@ -157,11 +157,11 @@ DialectChoice choose_dialect(const Element& root, const DialectWishes& wishes, D
     const Attribute* attribute = root.attribute("dialect");
     if (wishes.name) {
         dialect = Dialect::standard(*wishes.name);
-        dialect.reason = "--dialect says so";
+        dialect.reason = "set by --dialect";
     } else if (attribute && attribute->value != "auto" && !attribute->broken) {
         const auto name = dialect_from_string(attribute->value);
         dialect = Dialect::standard(name.value_or(DialectName::plumb));
-        dialect.reason = "the scene file says so";
+        dialect.reason = "set by the scene file";
         std::vector<std::string_view> known = {"auto"};
         for (const DialectName each : all_dialects) known.push_back(to_string(each));
         if (!name)

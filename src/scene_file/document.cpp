@@ -144,9 +144,9 @@ std::string read_text(const std::filesystem::path& path)
 {
     std::error_code status;
     if (std::filesystem::is_directory(path, status))
-        throw Error(fmt::format("'{}' is a folder, not a scene file", path.string()));
+        throw Error(fmt::format("'{}' is a directory, not a scene file", path.string()));
     if (!std::filesystem::exists(path, status))
-        throw Error(fmt::format("there is no file '{}'", path.string()));
+        throw Error(fmt::format("file '{}' does not exist", path.string()));
     const RegularFile file(path);
     if (file.size() > max_text_size)
         throw Error(

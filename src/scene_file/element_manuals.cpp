@@ -12,8 +12,9 @@ constexpr ElementManual manuals[] = {
     {"scene", R"(The root of a scene file.
 
 Holds one <camera>, one <integrator>, at most one <sampler>, any number of <mesh> or <shape> and of <emitter>, in any
-order, and <include> and <default>. The attribute `dialect` says which course's readings apply: plumb, epfl, eth,
-zaragoza or mcgill; without it they are decided from evidence in the file.
+order, <bsdf> and <texture> that a <ref> names, and <include> and <default>. The attribute `dialect` says which
+course's dialect applies: plumb, epfl, eth, zaragoza or mcgill; without it the dialect is chosen by marks in the
+file.
 
         <scene dialect="plumb">
             <integrator type="path_mis"/>
@@ -43,8 +44,8 @@ For example:
 
     boolean   true or false
     integer   a whole number
-    float     a number; an integer will do
-    string    text; names of files are seen from the folder of the file that they stand in
+    float     a number; or an integer
+    string    text; file names are relative to the directory of the file that contains them
     point     three numbers
     vector    three numbers, or two where a texture takes u and v
     color     three numbers: linear RGB
@@ -56,7 +57,7 @@ Numbers in a list are separated by commas or blanks. For example:
 )"},
     {"include", R"(Puts the children of another file's root in its place.
 
-    filename   seen from the folder of the file that it stands in
+    filename   relative to the directory of the file that contains it
 
 It stands in <scene> (in suites: in <suite> or <group>). For example:
 
@@ -67,7 +68,8 @@ It stands in <scene> (in suites: in <suite> or <group>). For example:
     name    letters, digits, - and _; it begins with a letter or _
     value   any text
 
-The command line's -D name=value goes before every <default>, and the first <default> of a name before later ones.
+-D name=value on the command line takes precedence over every <default>, and the first
+<default> of a name over later ones.
 $$ stands for the sign itself. It stands in <scene> (in suites: in <suite> or <group>). For example:
 
         <default name="spp" value="64"/>
@@ -79,18 +81,29 @@ It stands in <scene>, and may hold one <bsdf> (default: diffuse, albedo 0.5) and
 )"},
     {"bsdf", R"(What a surface is made of.
 
-It stands in the <mesh> or <shape> whose surface it is, and may hold a <texture> for each parameter that takes one.
+It stands in the <mesh> or <shape> whose surface it is, in another <bsdf> that changes it, or, with an id for <ref>, in
+<scene>. It may hold a <texture> for each parameter that takes one.
 )"},
     {"texture", R"(A value that differs from point to point of a surface, over its uv coordinates.
 
 It stands in a <bsdf> or <emitter>, with the parameter that it replaces as its name: <texture name="albedo" ...>. Where
-only one parameter can be a texture, the name may be left out.
+only one parameter can be a texture, the name may be omitted. With an id for <ref>, it may stand in <scene>.
 )"},
-    {"emitter", R"(What gives light.
+    {"ref", R"(Uses a <bsdf> or <texture> that is defined elsewhere.
 
-'area' stands in the <mesh> or <shape> that shines; all others stand in <scene>.
+    id      of a <bsdf> or <texture> anywhere in the scene, before or after
+    name    of a texture: the parameter that it replaces, as in <texture>
+
+The object is built once, however many use it. It stands in <mesh>, <shape>, <bsdf> or <emitter>. For example:
+
+        <bsdf type="roughconductor" id="gold"> <color name="R0" value="1 0.71 0.29"/> </bsdf>
+        <shape type="sphere"> <ref id="gold"/> </shape>
 )"},
-    {"camera", R"(Where the picture is taken from, and its size.
+    {"emitter", R"(A light source.
+
+'area' stands in the <mesh> or <shape> that emits; all others stand in <scene>.
+)"},
+    {"camera", R"(Where the image is taken from, and its size.
 
 One stands in <scene>. It may hold one <rfilter>.
 )"},

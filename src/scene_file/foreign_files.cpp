@@ -52,8 +52,7 @@ bool is_in(const std::string_view (&words)[count], std::string_view word)
 // What is in Mitsuba's scenes and never in ours.
 bool is_of_mitsuba(const Element& element)
 {
-    return element.tag == "sensor" || element.tag == "film" ||
-           (element.tag == "bsdf" && element.value("type") == "twosided");
+    return element.tag == "sensor" || element.tag == "film";
 }
 
 // Recursion ends: elements are nested at most max_nesting levels.
@@ -80,7 +79,7 @@ std::optional<std::string> foreign_content(std::string_view text)
     for (const Beginning& picture : pictures)
         if (text.starts_with(picture.bytes))
             return fmt::format(
-                "this is a picture ({}), not a scene; 'renderer info' prints what is in its header",
+                "this is an image ({}), not a scene; 'renderer info' prints what is in its header",
                 picture.kind);
     for (const Beginning& other : others)
         if (text.starts_with(other.bytes)) return fmt::format("this is {}", other.kind);

@@ -16,21 +16,20 @@ constexpr std::string_view use_image_texture = "use 'imagetexture_color3f' with 
 constexpr std::string_view use_tube =
     "use an 'area' emitter on a small shape inside a black tube, or 'point'";
 constexpr std::string_view use_coat = "use 'roughsubstrate' or 'roughconductor'";
-constexpr std::string_view no_relief = "surfaces have the normals of their meshes; use its BSDF alone";
+constexpr std::string_view no_relief = "use 'normalmap', or its BSDF alone";
 
 constexpr ForeignName names[] = {
     {"tag", "medium", "", vacuum},
     {"tag", "phase", "", vacuum},
     {"tag", "volume", "", vacuum},
     {"tag", "denoiser", "",
-     "Plumb's pictures are unbiased estimates; denoise the written .exr with another program"},
+     "Plumb's images are unbiased estimates; denoise the written .exr with another program"},
     {"tag", "sensor", "camera", ""},
     {"tag", "rgb", "color", ""},
     {"tag", "srgb", "", "write it as a linear <color>"},
     {"tag", "spectrum", "color", ""},
     {"tag", "blackbody", "", "write it as a <color>"},
     {"tag", "film", "", "width and height are parameters of <camera>"},
-    {"tag", "ref", "", "repeat the object where it is used"},
     {"tag", "light", "emitter", ""},
     {"tag", "luminaire", "emitter", ""},
     {"tag", "material", "bsdf", ""},
@@ -122,21 +121,19 @@ constexpr ForeignName names[] = {
     {"bsdf", "blinn", "", "use 'phong'"},
     {"bsdf", "blinn_phong", "", "use 'phong'"},
     {"bsdf", "oren_nayar", "", "use 'diffuse'"},
-    {"bsdf", "twosided", "",
-     "BSDFs reflect on the front side only; turn the shape, or put a second one behind it"},
     {"bsdf", "null", "", "leave the surface out"},
     {"bsdf", "mask", "", "leave the transparent parts out of the mesh"},
     {"bsdf", "blend", "", "use one of its BSDFs"},
     {"bsdf", "mix", "", "use one of its BSDFs"},
     {"bsdf", "bumpmap", "", no_relief},
-    {"bsdf", "normalmap", "", no_relief},
 
     {"shape", "plane", "", "use 'rectangle', or an 'obj' mesh"},
     {"shape", "quad", "rectangle", ""},
     {"shape", "square", "rectangle", ""},
     {"shape", "cube", "", "use an 'obj' mesh"},
     {"shape", "box", "", "use an 'obj' mesh"},
-    {"shape", "disk", "", "use an 'obj' mesh"},
+    {"shape", "disc", "disk", ""},
+    {"shape", "circle", "disk", ""},
     {"shape", "cylinder", "", "use an 'obj' mesh"},
     {"shape", "ply", "", "convert the file to .obj and use 'obj'"},
     {"shape", "serialized", "", "convert the file to .obj and use 'obj'"},
@@ -165,7 +162,7 @@ constexpr ForeignName names[] = {
     {"emitter", "distantdisk", "", "use 'environment', or 'directional' for a small disk"},
     {"emitter", "texturearea", "", "use 'area' with <texture name=\"radiance\">"},
     {"emitter", "rectEmitter", "", "use 'area' on a 'rectangle'"},
-    {"emitter", "diskEmitter", "", "use 'area' on an 'obj' mesh"},
+    {"emitter", "diskEmitter", "", "use 'area' on a 'disk'"},
     {"emitter", "sphereEmitter", "", "use 'area' on a 'sphere'"},
 
     {"texture", "wood", "", use_image_texture},

@@ -127,7 +127,7 @@ private:
         const Element* factor = child_named(element, "radiance");
         if (!factor || !child_named(element, "filename")) return;
         if (std::strtod(factor->value("value").c_str(), nullptr) >= undoing_factor)
-            add(*factor, fmt::format("a factor of {} on an environment's picture", undoing_factor), zaragoza,
+            add(*factor, fmt::format("a factor of {} on an environment image", undoing_factor), zaragoza,
                 MarkWeight::parameter);
     }
 

@@ -5,6 +5,7 @@
 #include "scene_file/foreign_names.h"
 #include "scene_file/manual.h"
 #include "scene_file/placement.h"
+#include "scene_file/shared_objects.h"
 #include "scene_file/values.h"
 
 #include <algorithm>
@@ -57,6 +58,10 @@ void ObjectReader::read_children(std::initializer_list<std::string_view> child_t
             add_property(child);
         else if (child.tag == "texture" && takes_textures(element_))
             add_texture(child);
+        else if (child.tag == "bsdf" && element_.tag == "bsdf")
+            add_bsdf(child);
+        else if (child.tag == "ref" && takes_textures(element_))
+            add_ref(child);
         else if (std::find(child_tags.begin(), child_tags.end(), child.tag) == child_tags.end())
             context_.diagnostics.error(child.place(), rejection(element_, child));
     }
@@ -82,15 +87,39 @@ void ObjectReader::add_property(const Element& child)
 
 void ObjectReader::add_texture(const Element& child)
 {
-    ObjectReader reader(child, context_);
-    std::shared_ptr<const Texture> texture = reader.build(texture_types());
-    if (texture) context_.texture_bytes += texture->memory_bytes();
+    add_texture(child, context_.shared->texture(child, child.place(), context_));
+}
+
+// child: the <texture>, or the <ref> to it.
+void ObjectReader::add_texture(const Element& child, std::shared_ptr<const Texture> texture)
+{
     const std::optional<std::string> name = texture_name(child);
     if (!name) return;
     const Attribute* attribute = child.attribute("name");
     const SourceLocation at = attribute ? child.value_place(*attribute) : child.place();
     // One that could not be made still stands here, so that a wrong name is found, too.
     if (is_first(child, *name, at)) params_.add_texture({*name, std::move(texture), at});
+}
+
+void ObjectReader::add_bsdf(const Element& child)
+{
+    params_.add_bsdf({context_.shared->bsdf(child, child.place(), context_), child.place()});
+}
+
+void ObjectReader::add_ref(const Element& child)
+{
+    const Element* target = context_.shared->find(child, context_);
+    if (!target) {
+        // It stands for what is missing, so that nothing is reported twice.
+        if (element_.tag == "bsdf") params_.add_bsdf({nullptr, child.place(), true});
+    } else if (target->tag == "texture") {
+        add_texture(child, context_.shared->texture(*target, child.place(), context_));
+    } else if (element_.tag == "bsdf") {
+        params_.add_bsdf({context_.shared->bsdf(*target, child.place(), context_), child.place()});
+    } else {
+        context_.diagnostics.error(
+            child.place(), fmt::format("{}, which '{}' is", rejection(element_, *target), child.value("id")));
+    }
 }
 
 // The parameter that a texture is for: of objects that take one texture, that one, if it has no name.
@@ -104,8 +133,8 @@ std::optional<std::string> ObjectReader::texture_name(const Element& child)
         choice += fmt::format("{}name=\"{}\"", i == 0 ? "" : i + 1 == names.size() ? " or " : ", ", names[i]);
     if (!choice.empty())
         context_.diagnostics.error(
-            child.place(), fmt::format("<texture> needs an attribute 'name', for {} '{}' takes several: {}",
-                                       element_.tag, type_, choice));
+            child.place(), fmt::format("<{}> needs an attribute 'name', for {} '{}' takes several: {}",
+                                       child.tag, element_.tag, type_, choice));
     else if (kind_of_type(type_) == kind_of(element_))
         context_.diagnostics.error(child.place(),
                                    fmt::format("{} '{}' takes no texture", element_.tag, type_));
@@ -170,11 +199,11 @@ void ObjectReader::finish()
         std::string used(ignored->instead_default);
         for (const Element& child : element_.children)
             if (child.value("name") == ignored->instead) used = child.value("value");
-        params_.ignore(
-            name, ignored->instead.empty()
-                      ? std::string()
-                      : fmt::format("'{}' is not read, neither here nor in the course's own code: {} is {}",
-                                    name, ignored->instead, used));
+        params_.ignore(name,
+                       ignored->instead.empty()
+                           ? std::string()
+                           : fmt::format("'{}' is read neither here nor in the course's own code: {} is {}",
+                                         name, ignored->instead, used));
     }
     params_.reject_unused();
 }

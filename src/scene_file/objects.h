@@ -8,6 +8,8 @@
 
 namespace plumb {
 
+class SharedObjects;
+
 // What loading needs to know everywhere.
 struct LoadContext {
     Diagnostics& diagnostics;
@@ -15,13 +17,15 @@ struct LoadContext {
     bool lenient = false;
     std::vector<std::filesystem::path> files; // that plugins read, in order, each once
     std::uint64_t texture_bytes = 0;          // of the pictures in textures
+    SharedObjects* shared = nullptr;          // never null where BSDFs are built
+    int bsdf_depth = 0;                       // how many BSDFs are around what is being built
 
     void add_file(const std::filesystem::path& file);
 };
 
 std::string_view kind_of(const Element& element);
 
-// An element's parameters, ready for the constructor. Children that are neither properties nor textures must have one
+// An element's parameters, ready for the constructor. Children that are no properties, textures or BSDFs of it must have one
 // of the given tags; the caller deals with those.
 class ObjectReader {
 public:
@@ -66,6 +70,9 @@ private:
     void read_children(std::initializer_list<std::string_view> child_tags);
     void add_property(const Element& child);
     void add_texture(const Element& child);
+    void add_texture(const Element& child, std::shared_ptr<const Texture> texture);
+    void add_bsdf(const Element& child);
+    void add_ref(const Element& child);
     std::optional<std::string> texture_name(const Element& child);
     bool is_first(const Element& child, std::string_view name, const SourceLocation& at);
     void fail_unknown_type(const std::vector<std::string_view>& names) const;

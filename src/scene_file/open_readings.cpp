@@ -101,9 +101,9 @@ public:
             other.emitters_absorb != read_.emitters_absorb)
             found.push_back(
                 other.emitters_absorb
-                    ? "light ends at lamps, which darkens them and what is near (--emitters absorb)"
-                    : "lamps scatter light, too, which brightens them and what is near "
-                      "(--emitters scatter)");
+                    ? "light ends at emitters, which darkens them and their surroundings (--emitters absorb)"
+                    : "emitters also scatter light, which brightens them and their surroundings (--emitters "
+                      "scatter)");
         if (stakes_.sees_emitters && stakes_.has_sun &&
             other.sun_points_to_light != read_.sun_points_to_light)
             found.emplace_back("directional light comes from the other side");
@@ -120,7 +120,7 @@ public:
     {
         if (!has_map() || read_.environment_scale == 1.f) return {};
         const double mean = mean_around(*scene_);
-        return fmt::format("the environment's picture is turned and divided by {:g}: mean {:.2g}, not {:.2g} "
+        return fmt::format("the environment image is flipped and divided by {:g}: mean {:.2g}, not {:.2g} "
                            "(--envmap-scale 1, or --dialect plumb)",
                            1.0 / static_cast<double>(read_.environment_scale), mean,
                            mean / static_cast<double>(read_.environment_scale));
@@ -137,7 +137,7 @@ private:
         if (!has_map() || other.environment_scale == read_.environment_scale) return {};
         const double mean = mean_around(*scene_);
         const double factor = static_cast<double>(other.environment_scale / read_.environment_scale);
-        return fmt::format("the environment's picture is turned and {} by {:g}: mean {:.2g}, not {:.2g}",
+        return fmt::format("the environment image is flipped and {} by {:g}: mean {:.2g}, not {:.2g}",
                            factor < 1.0 ? "divided" : "multiplied", factor < 1.0 ? 1.0 / factor : factor,
                            mean * factor, mean);
     }

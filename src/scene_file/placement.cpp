@@ -23,7 +23,7 @@ struct Place {
 // The grammar, but for parameters and for what stands in a <test>, which is the root of a file of its own kind.
 const std::vector<Place>& places()
 {
-    const Tags scene = {"scene"}, transform = {"transform"}, shapes = {"mesh", "shape"};
+    const Tags scene = {"scene"}, transform = {"transform"};
     const Tags suite = {"suite", "group"}, whole = {"scene", "suite", "group"};
     static const std::vector<Place> places = {
         {"include", whole},
@@ -34,8 +34,9 @@ const std::vector<Place>& places()
         {"sampler", scene},
         {"integrator", scene},
         {"emitter", {"scene", "mesh", "shape"}},
-        {"bsdf", shapes},
-        {"texture", {"bsdf", "emitter"}},
+        {"bsdf", {"scene", "mesh", "shape", "bsdf"}},
+        {"texture", {"scene", "bsdf", "emitter"}},
+        {"ref", {"mesh", "shape", "bsdf", "emitter"}},
         {"rfilter", {"camera"}},
         {"translate", transform},
         {"scale", transform},

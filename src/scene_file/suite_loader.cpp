@@ -203,7 +203,7 @@ private:
         settings_size_ += size_of_settings(entry);
         if (entries_.size() >= max_entries || settings_size_ > max_settings_size) {
             diagnostics_.error(entry.at,
-                               fmt::format("a suite has at most {} pictures, with at most {} MiB of settings",
+                               fmt::format("a suite has at most {} images, with at most {} MiB of settings",
                                            max_entries, max_settings_size >> 20));
             return false;
         }
@@ -224,11 +224,10 @@ private:
     {
         if (name.broken) return false;
         if (is_inner_name(name.value)) return true;
-        diagnostics_.error(
-            element.value_place(name),
-            fmt::format("'{}' cannot name a picture; names are those of a file in the output folder, "
-                        "such as box or hw4/box, without an ending",
-                        name.value));
+        diagnostics_.error(element.value_place(name),
+                           fmt::format("'{}' cannot name an image; use the name of a file in the output "
+                                       "directory without its extension, such as box or hw4/box",
+                                       name.value));
         return false;
     }
 
@@ -280,7 +279,7 @@ private:
                     diagnostics_.error(grandchild.place(), rejection(child, grandchild));
                 if (inherited.definitions.size() >= max_definitions)
                     diagnostics_.error(child.place(),
-                                       fmt::format("a picture has at most {} definitions", max_definitions));
+                                       fmt::format("an image has at most {} definitions", max_definitions));
                 else if (check_attributes(child, {"name", "value"}, {}, diagnostics_))
                     inherited.definitions[child.value("name")] = child.value("value");
             } else if (!is_group || (child.tag != "render" && child.tag != "group")) {

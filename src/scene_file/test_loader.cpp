@@ -5,6 +5,7 @@
 #include "scene_file/dialects.h"
 #include "scene_file/expand.h"
 #include "scene_file/file_order.h"
+#include "scene_file/shared_objects.h"
 #include "scene_file/values.h"
 
 #include <algorithm>
@@ -48,6 +49,7 @@ public:
         const Dialect neutral = Dialect::standard(DialectName::plumb); // no parameter of a BSDF depends on it
         LoadContext context{diagnostics_, neutral, options_.lenient, {}};
         if (!read_type()) return std::move(test_);
+        SharedObjects shared(root_, context);
         read_parameters(context);
         build_bsdfs(context);
         build_emitters();
@@ -148,7 +150,7 @@ private:
     {
         for (const Element& child : root_.children) {
             if (child.tag != "bsdf") continue;
-            auto bsdf = ObjectReader(child, context).build(bsdf_types());
+            auto bsdf = build_bsdf(child, context);
             if (bsdf && !is_ttest() && bsdf->lobes().has_any(delta_lobes))
                 diagnostics_.error(
                     child.place(),
@@ -165,6 +167,7 @@ private:
         if (!first_child(root_, "emitter")) return;
         const Dialect dialect = choose_dialect(root_, wishes(), diagnostics_).dialect;
         LoadContext context{diagnostics_, dialect, options_.lenient, {}};
+        SharedObjects shared(root_, context);
         for (const Element& child : root_.children) {
             if (child.tag != "emitter") continue;
             if (child.value("type") == "area")

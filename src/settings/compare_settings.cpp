@@ -54,11 +54,16 @@ template <>
 std::span<const SettingRow<CompareSettings>> setting_rows<CompareSettings>()
 {
     static const SettingRow<CompareSettings> rows[] = {
-        {"significance", "P", "chance to find a difference where there is none (default 0.01)",
-         "the significance", Effect::verdict,
-         [](const C& c) { return text_unless(c.significance, C().significance); },
+        {"significance", "P", "probability of a false difference (default 0.01)", "the significance",
+         Effect::verdict, [](const C& c) { return text_unless(c.significance, C().significance); },
          [](C& c, Name n, Text t) { c.significance = parse_double(n, t, 1e-9, 0.5); }},
-        {"exact", "A|B", "this picture has no noise", "the exact picture", Effect::verdict,
+        {"layer", "NAME", "compare the channels NAME.* instead of the colours", "the layer", Effect::verdict,
+         [](const C& c) { return text_unless(c.layer, std::string()); },
+         [](C& c, Name n, Text t) {
+             if (t.empty()) throw Error(fmt::format("{} needs a name", n));
+             c.layer = t;
+         }},
+        {"exact", "A|B", "this image has no noise", "the exact image", Effect::verdict,
          [](const C& c) { return word_text(c.exact, Side::a, "A", "B"); },
          [](C& c, Name n, Text t) {
              c.exact = parse_word(n, t, {"A", "B"}) == "A" ? Side::a : Side::b;
@@ -66,13 +71,16 @@ std::span<const SettingRow<CompareSettings>> setting_rows<CompareSettings>()
         {"no-verdict", "", "ignore the noise: the limits of --max decide", "the use of the noise",
          Effect::verdict, [](const C& c) { return switch_text(!c.verdict); },
          [](C& c, Name n, Text t) { c.verdict = !parse_switch(n, t); }},
-        {"fail-percent", "P", "of the pixels may differ or stay undecided (default 0)",
+        {"fail-percent", "P",
+         "allow P % of the pixels to differ or stay undecided\n"
+         "(default 0)",
          "the tolerated part of the pixels", Effect::verdict,
          [](const C& c) { return text_unless(c.fail_percent, C().fail_percent); },
          [](C& c, Name n, Text t) { c.fail_percent = parse_double(n, t, 0.0, 100.0); }},
         {"max",
          "METRIC=X,...",
-         "fail above these: mse, rmse, relmse, mae, max, flip; or below: psnr",
+         "fail above these: mse, rmse, relmse, mae, max, flip;\n"
+         "or below: psnr",
          "the limits",
          Effect::verdict,
          limits_text,

@@ -95,7 +95,7 @@ std::vector<std::string> parse_list(std::string_view option, std::string_view te
     for (std::size_t start = 0; start <= text.size();) {
         const std::size_t end = std::min(text.find(',', start), text.size());
         words.emplace_back(text.substr(start, end - start));
-        if (words.back().empty()) throw Error(fmt::format("{} has an empty word in '{}'", option, text));
+        if (words.back().empty()) throw Error(fmt::format("{} has an empty element in '{}'", option, text));
         start = end + 1;
     }
     return words;

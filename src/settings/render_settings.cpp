@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "plumb/render_settings.h"
 
+#include "plumb/aovs.h"
 #include "plumb/error.h"
 #include "plumb/film.h"
 #include "settings/parse_value.h"
@@ -54,10 +55,27 @@ Texts dialect_text(const S& s)
     return s.scene.dialect ? Texts{std::string(to_string(*s.scene.dialect))} : Texts();
 }
 
-// "of Embree: sse2, sse4.2, avx, avx2 or avx512 (default avx2)", on the processors that have these.
+void set_aovs(S& s, Name name, Text text)
+{
+    std::vector<std::string> aovs = parse_list(name, text);
+    try {
+        layers_of(aovs);
+    } catch (const Error& problem) {
+        throw Error(fmt::format("{}: {}", name, problem.what()));
+    }
+    s.view.aovs = std::move(aovs);
+}
+
+Texts aovs_text(const S& s)
+{
+    const auto& aovs = s.view.aovs;
+    return aovs.empty() ? Texts() : Texts{fmt::format("{}", fmt::join(aovs, ","))};
+}
+
+// "Embree instruction set: sse2, sse4.2, avx, avx2 or avx512 (default avx2)", on the processors that have these.
 std::string isa_help()
 {
-    std::string words = "of Embree: ";
+    std::string words = "Embree instruction set:\n";
     const std::vector<std::string_view> names = instruction_set_names();
     for (std::size_t i = 0; i < names.size(); ++i) {
         if (i > 0) words += i + 1 < names.size() ? ", " : " or ";
@@ -79,7 +97,8 @@ std::span<const SettingRow<RenderSettings>> setting_rows<RenderSettings>()
          [](const S& s) { return text_unless(s.output.exposure, 0.f); },
          [](S& s, Name n, Text t) { s.output.exposure = parse_number(n, t, -100.f, 100.f); }},
         {"no-variance", "",
-         "leave the error bars out of .exr files: variance.R, variance.G,\nvariance.B and contributing",
+         "omit the error bars from .exr files: variance.R,\n"
+         "variance.G, variance.B and contributing",
          "the absence of error bars", Effect::file,
          [](const S& s) { return switch_text(!s.output.error_bars); },
          [](S& s, Name n, Text t) { s.output.error_bars = !parse_switch(n, t); }},
@@ -87,43 +106,49 @@ std::span<const SettingRow<RenderSettings>> setting_rows<RenderSettings>()
         {"spp", "N", "samples per pixel (default: the scene's)", "the number of samples per pixel",
          Effect::coverage, [](const S& s) { return optional_text(s.samples.per_pixel); },
          [](S& s, Name n, Text t) { s.samples.per_pixel = parse_integer(n, t, 1, film_max_samples); }},
-        {"seed", "N", "of the random numbers, 64 bits (default 0)", "the seed", Effect::samples,
+        {"seed", "N", "seed of the random numbers, 64 bits (default 0)", "the seed", Effect::samples,
          [](const S& s) { return text_unless(s.samples.seed, std::uint64_t{0}); },
          [](S& s, Name n, Text t) { s.samples.seed = parse_integer(n, t, 0, UINT64_MAX); }},
         {"size", "WxH", "resolution (default: the scene's)", "the resolution", Effect::samples, size_text,
          [](S& s, Name n, Text t) { s.view.size = parse_size(n, t); }},
-        {"crop", "X,Y,W,H", "render this part only; same bits as in the whole", "the crop", Effect::coverage,
-         crop_text, [](S& s, Name n, Text t) { s.view.crop = parse_rectangle(n, t); }},
-        {"integrator", "TYPE", "instead of the scene's, with default parameters", "the integrator",
-         Effect::samples, [](const S& s) { return optional_text(s.method.integrator); },
+        {"crop", "X,Y,W,H", "render this window only; same bits as in the full\nimage", "the crop",
+         Effect::coverage, crop_text, [](S& s, Name n, Text t) { s.view.crop = parse_rectangle(n, t); }},
+        {"aov", "NAME,...", "add layers to .exr files: albedo, normal, depth and\nothers (docs/aovs.md)",
+         "the list of layers", Effect::coverage, aovs_text, set_aovs},
+        {"integrator", "TYPE",
+         "use this integrator instead of the scene's, with\n"
+         "default parameters",
+         "the integrator", Effect::samples, [](const S& s) { return optional_text(s.method.integrator); },
          [](S& s, Name, Text t) { s.method.integrator = std::string(t); }},
-        {"sampler", "TYPE", "instead of the scene's", "the sampler", Effect::samples,
+        {"sampler", "TYPE", "use this sampler instead of the scene's", "the sampler", Effect::samples,
          [](const S& s) { return optional_text(s.method.sampler); },
          [](S& s, Name, Text t) { s.method.sampler = std::string(t); }},
         {"time", "T",
-         "take about as long, in all: 90, 90s, 10m or 2h; rendering takes\nat most --spp samples",
+         "time limit in all: 90, 90s, 10m or 2h; rendering\n"
+         "takes at most --spp samples",
          "the time limit", Effect::stop, [](const S& s) { return optional_text(s.stop.seconds); },
          [](S& s, Name n, Text t) { s.stop.seconds = parse_duration(n, t); }},
         {"target-error", "E",
-         "until the noise is below E times the picture's mean (its RMSE,\nthe upper end of the 95 % "
-         "interval)",
+         "stop when the expected RMSE is below E times the mean\n"
+         "of the image (upper end of the 95 % interval)",
          "the target error", Effect::stop, [](const S& s) { return optional_text(s.stop.relative_error); },
          [](S& s, Name n, Text t) { s.stop.relative_error = parse_double(n, t, 1e-9, 1e3); }},
 
         {"define", "NAME=VALUE", "value of $NAME in the file; may be repeated", "what --define says",
          Effect::samples, definitions_text, define, "D", true},
-        {"dialect", "NAME", "auto, plumb, epfl, eth, zaragoza or mcgill (default auto)", "the dialect",
-         Effect::samples, dialect_text,
+        {"dialect", "NAME",
+         "dialect of the scene: auto, plumb, epfl, eth,\n"
+         "zaragoza or mcgill (default auto)",
+         "the dialect", Effect::samples, dialect_text,
          [](S& s, Name n, Text t) {
              s.scene.dialect = dialect_from_string(parse_word(n, t, dialect_words()));
          }},
-        {"emitters", "WHAT", "scatter or absorb the light that meets them", "what emitters do",
-         Effect::samples,
+        {"emitters", "WHAT", "emitters scatter or absorb incident light", "what emitters do", Effect::samples,
          [](const S& s) { return word_text(s.scene.emitters_absorb, true, "absorb", "scatter"); },
          [](S& s, Name n, Text t) {
              s.scene.emitters_absorb = parse_word(n, t, {"scatter", "absorb"}) == "absorb";
          }},
-        {"mirror", "on|off", "flop the picture left to right", "the mirrored view", Effect::samples,
+        {"mirror", "on|off", "mirror the image left to right", "the mirrored view", Effect::samples,
          [](const S& s) { return word_text(s.scene.mirrored_view, true, "on", "off"); },
          [](S& s, Name n, Text t) {
              s.scene.mirrored_view = parse_word(n, t, {"on", "off"}) == "on";

@@ -75,7 +75,8 @@ RenderSettings settings_of_arguments(const std::string& arguments)
         const Row* const row =
             word.starts_with("--") ? find_setting<RenderSettings>(std::string_view(word).substr(2)) : nullptr;
         if (!row)
-            throw Error(fmt::format("{}: '{}' is no option that changes a picture", arguments_name, word));
+            throw Error(
+                fmt::format("{}: '{}' is not an option that changes the image", arguments_name, word));
         if (!row->repeatable && std::ranges::find(given, row) != given.end())
             throw Error(fmt::format("{}: option '{}' is given twice", arguments_name, word));
         given.push_back(row);
@@ -122,7 +123,7 @@ RenderSettings settings_of_header(const Metadata& header)
     const MetadataValue* const schema = find(header, schema_name);
     const MetadataValue* const arguments = find(header, arguments_name);
     if (schema && arguments)
-        throw Error(fmt::format("{} and {} exclude each other", schema_name, arguments_name));
+        throw Error(fmt::format("{} and {} cannot be used together", schema_name, arguments_name));
     RenderSettings settings;
     if (arguments) settings = settings_of_arguments(text_of(std::string(arguments_name), *arguments));
     if (schema) check_schema(*schema);
@@ -130,7 +131,7 @@ RenderSettings settings_of_header(const Metadata& header)
         if (!name.starts_with(prefix)) continue;
         if (!schema) throw Error(fmt::format("{} needs {}", name, schema_name));
         const Row* const row = find_setting<RenderSettings>(std::string_view(name).substr(prefix.size()));
-        if (!row) throw Error(fmt::format("{} is no setting of a picture", name));
+        if (!row) throw Error(fmt::format("{} is not a setting of an image", name));
         const std::string_view text = text_of(name, value);
         for (std::size_t start = 0; start <= text.size();) {
             const std::size_t end =

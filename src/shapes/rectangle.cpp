@@ -4,6 +4,7 @@
 #include "plumb/shape.h"
 #include "shapes/spherical_rectangle.h"
 #include "shapes/triangle.h"
+#include "shapes/width_axis.h"
 
 #include <fmt/format.h>
 
@@ -36,7 +37,7 @@ public:
         const Vec3f given_normal = params.vector("normal", Vec3f(0.f, 0.f, 1.f));
         const Transform to_world = params.transform("toWorld");
         if (!(max_component(abs(given_normal)) > 0.f)) {
-            params.fail("normal", "must not be 0: it says where the front side is");
+            params.fail("normal", "must not be 0: it gives the front side");
             return;
         }
 
@@ -92,6 +93,11 @@ public:
         return {position(primitive, b), clearance_, normal_, primitive, shading_, 0, uv};
     }
 
+    Tangents tangents(const SurfacePoint&) const override
+    {
+        return {corners_[1] - corners_[0], corners_[3] - corners_[0]};
+    }
+
     ShapeSample sample_area(double /*u_select*/, const Vec2f& u) const override
     {
         return {point(u.x, u.y), clearance_, normal_, area_pdf_, u};
@@ -128,13 +134,6 @@ public:
     std::uint64_t triangle_count() const override { return triangles_.size(); }
 
 private:
-    static Vec3d width_axis(const Vec3d& normal)
-    {
-        constexpr double parallel_below = 1e-6; // sine of the angle between the normal and x
-        const Vec3d projected = Vec3d(1.0, 0.0, 0.0) - normal * normal.x;
-        return length(projected) > parallel_below ? normalize(projected) : Vec3d(0.0, 0.0, 1.0);
-    }
-
     // The point of a triangle, or as close to it as points may be to edges.
     Vec3f position(std::uint32_t primitive, const Barycentric& b) const
     {

@@ -27,7 +27,7 @@ namespace plumb {
 ///             <point name="center" value="0 1 0"/>
 ///             <float name="radius" value="0.5"/>
 ///         </shape>
-class Sphere final : public Shape {
+class Sphere final : public Shape, private Primitives {
 public:
     explicit Sphere(const Params& params)
     {
@@ -41,6 +41,7 @@ public:
         }
         center_ = to_world.point(center);
         radius_ = static_cast<float>(radius * *scale);
+        given_radius_ = radius;
         area_ = 4.f * pi * sqr(radius_);
         to_object_ = to_world.inverse();
         if (!is_finite(center_) || !std::isfinite(area_) || !std::isfinite(1.f / area_))
@@ -52,7 +53,7 @@ public:
                     radius_));
     }
 
-    void add_to(AccelBuilder& builder) const override { builder.add_sphere(center_, radius_); }
+    void add_to(AccelBuilder& builder) const override { builder.add_user(*this); }
 
     SurfacePoint surface_at(const Ray& ray, std::uint32_t primitive) const override
     {
@@ -71,6 +72,18 @@ public:
         at.uv = uv(at.geometric_normal);
         at.primitive = primitive;
         return at;
+    }
+
+    Tangents tangents(const SurfacePoint& at) const override
+    {
+        const Vec3f d = normalize(to_object_.vector(at.geometric_normal));
+        const float ring = std::sqrt(sqr(d.x) + sqr(d.y));
+        const Vec3f by_u = Vec3f(d.y, -d.x, 0.f) * two_pi;
+        const Vec3f by_v = Vec3f(d.x * d.z / ring, d.y * d.z / ring, -ring) * pi;
+        const Transform to_world = to_object_.inverse();
+        if (!(ring > 0.f))
+            return {to_world.vector(Vec3f(0.f, d.z, 0.f)), to_world.vector(Vec3f(1.f, 0.f, 0.f))};
+        return {to_world.vector(by_u) * given_radius_, to_world.vector(by_v) * given_radius_};
     }
 
     ShapeSample sample_area(double /*u_select*/, const Vec2f& u) const override
@@ -94,7 +107,7 @@ public:
         const double cos_alpha = sin2 / cone->sin_max + (1.0 - one_minus_cos) * inside;
         const double sin_alpha = std::sqrt(std::max((1.0 - cos_alpha) * (1.0 + cos_alpha), 0.0));
         const double scale = r2 > 0.0 ? sin_alpha / std::sqrt(r2) : 0.0;
-        const auto [s, t] = tangents(cone->axis);
+        const auto [s, t] = basis_about(cone->axis);
         const Vec3d normal = s * (p.x * scale) + t * (p.y * scale) - cone->axis * cos_alpha;
         return sample_at(normalize(normal), cone->pdf);
     }
@@ -110,8 +123,16 @@ public:
     float area() const override { return area_; }
     Box3f bounds() const override { return {center_ - Vec3f(radius_), center_ + Vec3f(radius_)}; }
     DirectionCone normals() const override { return {}; }
+    std::optional<Ball> as_ball() const override { return Ball{center_, radius_}; }
 
 private:
+    std::size_t count() const override { return 1; }
+    Box3f bounds(std::uint32_t) const override { return bounds(); }
+    std::optional<double> intersect(const Ray& ray, std::uint32_t) const override
+    {
+        return intersect_sphere(ray, center_, radius_);
+    }
+
     // The directions in which the sphere is seen from outside.
     struct Cone {
         Vec3d axis; // towards the centre
@@ -137,7 +158,7 @@ private:
     }
 
     // Two vectors that make an orthonormal basis with a unit vector: as Frame, in double precision.
-    static std::pair<Vec3d, Vec3d> tangents(const Vec3d& n)
+    static std::pair<Vec3d, Vec3d> basis_about(const Vec3d& n)
     {
         const double sign = std::copysign(1.0, n.z);
         const double a = -1.0 / (sign + n.z);
@@ -176,6 +197,7 @@ private:
 
     Vec3f center_{0.f};
     float radius_ = 1.f;
+    float given_radius_ = 1.f; // before toWorld
     float area_ = 4.f * pi;
     Transform to_object_;
 };

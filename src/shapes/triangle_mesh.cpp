@@ -7,6 +7,7 @@
 #include "plumb/shape.h"
 #include "shapes/spherical_rectangle.h"
 #include "shapes/triangle.h"
+#include "shapes/triangle_tangents.h"
 
 #include <utility>
 
@@ -39,7 +40,7 @@ public:
         if (!to_world.is_identity()) apply(to_world);
         for (const Vec3f& p : mesh_.positions)
             if (!is_finite(p)) {
-                params.fail("toWorld", "moves vertices further away than a float can tell");
+                params.fail("toWorld", "moves vertices farther than a 32-bit float can represent");
                 return;
             }
 
@@ -75,6 +76,14 @@ public:
         const Frame shading(shading_normal(primitive, b, geometric_normal));
         const float clearance = triangle_clearance(t, geometric_normal, normal_length);
         return {position(edges, b), clearance, geometric_normal, primitive, shading, 0, uv(primitive, b)};
+    }
+
+    Tangents tangents(const SurfacePoint& at) const override
+    {
+        const TriangleEdges e = corners(at.primitive).edges();
+        if (mesh_.uvs.empty()) return {Vec3f(e.edge1), Vec3f(e.edge2)}; // by the barycentric coordinates
+        const MeshData::Triangle& t = mesh_.triangles[at.primitive];
+        return triangle_tangents(e, mesh_.uvs[t[0]], mesh_.uvs[t[1]], mesh_.uvs[t[2]]);
     }
 
     void prepare_sampling() override

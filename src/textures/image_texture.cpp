@@ -6,13 +6,13 @@
 
 namespace plumb {
 
-/// A picture: its lower left corner at uv = (0, 0), its upper right corner at (1, 1), repeated.
+/// An image: its lower left corner at uv = (0, 0), its upper right corner at (1, 1), repeated.
 ///
 /// Pixels are squares with their value in the middle: column u width - 1/2 and row (1 - v) height - 1/2, interpolated
-/// bilinearly. Pictures of 8-bit or 16-bit integers are taken to be sRGB and decoded to linear light; floating-point
-/// pictures are linear already.
+/// bilinearly. Images of 8-bit or 16-bit integers are taken to be sRGB and decoded to linear light; floating-point
+/// images are linear already.
 ///
-///     filepath   string    the picture, in any format that OpenImageIO reads
+///     filepath   string    the image, in any format that OpenImageIO reads
 ///     raw        boolean   take integers as value / maximum, without decoding sRGB   (default false)
 ///
 /// For example:

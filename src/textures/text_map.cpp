@@ -8,14 +8,14 @@
 
 namespace plumb {
 
-/// A picture, looked up as the Zaragoza course does: against u and v, and without decoding sRGB.
+/// An image, looked up as the Zaragoza course does: against u and v, and without decoding sRGB.
 ///
 /// The texel at column x = (1 - u) width and row y = (1 - v) height, counted from the upper left corner, where texel
 /// (i, j) stands at x = i and y = j; in between it is interpolated bilinearly, and it repeats. Integers become value /
 /// maximum. To show photographs in their true colours, use `imagetexture_color3f`.
 ///
-///     filename   string   the picture, in any format that OpenImageIO reads
-///     color      color    multiplies the picture   (default 1)
+///     filename   string   the image, in any format that OpenImageIO reads
+///     color      color    multiplies the image   (default 1)
 ///     scalex     float    read and not used, as in the course; other values than 1 give a warning   (default 1)
 ///     scaley     float    the same   (default 1)
 ///

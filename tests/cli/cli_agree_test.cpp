@@ -18,7 +18,8 @@ TEST_CASE("estimators of the same light agree", "[cli][agree]")
     for (const char* pair :
          {"  path and path_nee: agree, p ", "  path and path_mis: agree, p ",
           "  path_nee and path_mis: agree, p ", " % would have been found with 90 % probability\n",
-          "\nagree; what is wrong in all of them alike is beyond this test\n"})
+          "\n"
+          "agree; errors shared by all estimators cannot be detected\n"})
         CHECK_THAT(run.out, ContainsSubstring(pair));
     const std::string json = read_bytes(folder / "a.json");
     CHECK_THAT(json, ContainsSubstring("\"verdict\": \"agree\""));
@@ -56,8 +57,10 @@ TEST_CASE("an estimator that rarely finds the lamp is named", "[cli][agree]")
     INFO(run.out << run.err);
     CHECK(run.exit_code == 4);
     CHECK_THAT(run.out, ContainsSubstring("  path_nee and path_mis: agree, p "));
-    CHECK_THAT(run.out, ContainsSubstring("\nmore samples may decide it; or leave out path, which finds some "
-                                          "of the light too rarely\n"));
+    CHECK_THAT(run.out,
+               ContainsSubstring(
+                   "\n"
+                   "more samples may decide it; or omit path, which finds some of the light too rarely\n"));
     CHECK_THAT(read_bytes(folder / "a.json"),
                ContainsSubstring("\"reason\": \"432 of 432 pixels lie in no "));
     CHECK(folder.run({"agree", "small.xml", "--integrators", "path_nee,path_mis"}).exit_code == 0);
@@ -94,7 +97,7 @@ TEST_CASE("black pictures are no agreement, but the same pictures", "[cli][agree
     INFO(run.out << run.err);
     CHECK(run.exit_code == 4);
     CHECK_THAT(run.out,
-               ContainsSubstring("undecided, p 1 (both pictures are black: no sample has found any light)"));
+               ContainsSubstring("undecided, p 1 (both images are black: no sample has found any light)"));
     // Whatever may stay undecided.
     CHECK(folder.run({"agree", "dark.xml", "--spp", "4", "--fail-percent", "100"}).exit_code == 4);
     CHECK(folder.run({"race", "dark.xml", "--spp", "4", "--rounds", "3"}).exit_code == 4);

@@ -45,7 +45,7 @@ std::string mesh(const std::string& inner)
 }
 
 // Of scenes with one light.
-const std::string black = "though there is a light, all of 4096 paths through the picture are black\n";
+const std::string black = "although there is a light, all 4096 paths through the image are black\n";
 
 const std::string glass = R"(<bsdf type="dielectric"/>)";
 const std::string lamp = R"(<emitter type="area"><color name="radiance" value="1,1,1"/></emitter>)";
@@ -63,7 +63,7 @@ std::string doubts(const std::string& more, const std::string& obj = cube(false)
     REQUIRE(memory != std::string::npos);
     const std::string doubts = run.out.substr(0, memory);
     CHECK(run.exit_code == (doubts.empty() ? 0 : 3));
-    CHECK((run.out.find("nothing is wrong or doubtful\n") != std::string::npos) == doubts.empty());
+    CHECK((run.out.find("no mistakes found\n") != std::string::npos) == doubts.empty());
     return doubts;
 }
 
@@ -82,7 +82,7 @@ TEST_CASE("a good scene leaves no doubt", "[cli][check]")
 TEST_CASE("glass that is open or turned inside out is doubtful", "[cli][check]")
 {
     CHECK(doubts(sky + mesh(glass), cube(true)) ==
-          "mesh 'obj' (a.xml:4): its front looks inwards, so that its inside and outside are swapped\n");
+          "mesh 'obj' (a.xml:4): its front faces inwards, so inside and outside are swapped\n");
     const std::string open = cube(false).substr(0, cube(false).rfind("f "));
     CHECK(doubts(sky + mesh(glass), open) ==
           "mesh 'obj' (a.xml:4): light enters its material, but the surface is not closed\n");
@@ -106,18 +106,18 @@ TEST_CASE("lamps that light nothing are doubtful", "[cli][check]")
 {
     CHECK(doubts(mesh(lamp), cube(true)) ==
           "mesh 'obj' (a.xml:4): it is closed and shines inwards only\n" + black);
-    CHECK_THAT(
-        doubts(sun + R"(<shape type="rectangle"><vector name="normal" value="0,1,0"/>
+    CHECK_THAT(doubts(sun + R"(<shape type="rectangle"><vector name="normal" value="0,1,0"/>
         <point name="center" value="0,-0.0005,0"/>)" +
-               lamp + R"(</shape><shape type="rectangle">
+                      lamp + R"(</shape><shape type="rectangle">
         <float name="width" value="9"/><float name="height" value="9"/><vector name="normal" value="0,-1,0"/></shape>)"),
-        ContainsSubstring("shape 'rectangle' (a.xml:4): it faces a wall: its light gets no further than "));
+               ContainsSubstring(
+                   "shape 'rectangle' (a.xml:4): it faces a wall: its light reaches no farther than "));
     CHECK(
         doubts(
             sun +
             R"(<shape type="sphere"><emitter type="area"><color name="radiance" value="0,0,0"/></emitter></shape>)") ==
         "shape 'sphere' (a.xml:4): its emitter is black\n");
-    CHECK(doubts(mesh("")) == "there is no light: the picture will be black\n");
+    CHECK(doubts(mesh("")) == "there is no light: the image will be black\n");
     CHECK(doubts(mesh(""), cube(false), "normals").empty()); // which needs none
 }
 
@@ -131,7 +131,7 @@ TEST_CASE("a camera inside a thing is doubtful, and so is a warning", "[cli][che
     folder.write("mesh.obj", cube(false) + "f 1 2 2\n");
     const RunResult run = folder.run({"check", "a.xml"});
     CHECK(run.exit_code == 3);
-    CHECK_THAT(run.err, ContainsSubstring("warning: 1 triangle has no area and was left out"));
+    CHECK_THAT(run.err, ContainsSubstring("warning: 1 triangle has no area and was discarded"));
 }
 
 TEST_CASE("check tells errors as rendering does", "[cli][check]")
@@ -162,16 +162,15 @@ TEST_CASE("a sun that lights nothing is warned of, and a black picture doubted",
 
     const RunResult idle = check(floor + sun_along("0,1,0"));
     CHECK(idle.exit_code == 3);
-    CHECK_THAT(
-        idle.err,
-        ContainsSubstring("this light meets the front of no surface, and lights nothing: it goes along (0, "
-                          "1, 0), for 'direction' is where it goes"));
+    CHECK_THAT(idle.err,
+               ContainsSubstring("this light reaches the front of no surface, so it lights nothing: it goes "
+                                 "along (0, 1, 0), for 'direction' is where it goes"));
     CHECK_THAT(idle.out,
-               ContainsSubstring("though there is a light, all of 4096 paths through the picture are black"));
+               ContainsSubstring("although there is a light, all 4096 paths through the image are black"));
     const RunResult rendered = run_renderer({"a.xml", "-o", "a.exr", "--spp", "1"}, folder.path());
     CHECK(rendered.exit_code == 0);
     CHECK_THAT(rendered.err, ContainsSubstring("warning: this light meets the front of no surface") &&
-                                 ContainsSubstring("warning: the picture is black, though there is a light; "
+                                 ContainsSubstring("warning: the image is black, although there is a light; "
                                                    "'renderer check a.xml' may say why"));
     // For mcgill it comes from there.
     CHECK(run_renderer({"check", "a.xml", "--dialect", "mcgill"}, folder.path()).exit_code == 0);
@@ -194,5 +193,5 @@ TEST_CASE("a sun that lights nothing is warned of, and a black picture doubted",
     CHECK(away.exit_code == 0); // the floor sees it
     CHECK_THAT(
         check(R"(<emitter type="pointlight"><point name="position" value="0,-9,0"/></emitter>)" + floor).out,
-        ContainsSubstring("though there is a light"));
+        ContainsSubstring("although there is a light"));
 }

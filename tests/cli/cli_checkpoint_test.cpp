@@ -32,7 +32,7 @@ TEST_CASE("a rendering that is gone on from gives the same file", "[cli][checkpo
     const RunResult more =
         folder.run({"scene.xml", "-o", "a.exr", "--spp", "50", "--checkpoint", "c.exr", "--resume"});
     CHECK(more.exit_code == 0);
-    CHECK_THAT(more.err, ContainsSubstring("going on from 'c.exr', which has 34.5 k samples\n"));
+    CHECK_THAT(more.err, ContainsSubstring("resuming from 'c.exr', which has 34.5 k samples\n"));
     CHECK(read_bytes(folder / "a.exr") == read_bytes(folder / "whole.exr"));
     CHECK(is_there(folder / "c.previous.exr"));
 
@@ -41,7 +41,8 @@ TEST_CASE("a rendering that is gone on from gives the same file", "[cli][checkpo
         const RunResult fresh =
             folder.run({"scene.xml", "-o", "b.exr", "--spp", "50", "--checkpoint", "d.exr", "--resume"});
         CHECK(fresh.exit_code == 0);
-        CHECK_THAT(fresh.err, ContainsSubstring("there is no 'd.exr' yet: starting with the first sample\n"));
+        CHECK_THAT(fresh.err,
+                   ContainsSubstring("'d.exr' does not exist yet; starting with the first sample\n"));
         CHECK(read_bytes(folder / "b.exr") == read_bytes(folder / "whole.exr"));
     }
     SECTION("a checkpoint is not written over by a new rendering")
@@ -49,7 +50,7 @@ TEST_CASE("a rendering that is gone on from gives the same file", "[cli][checkpo
         const RunResult other =
             folder.run({"scene.xml", "-o", "b.exr", "--spp", "60", "--checkpoint", "c.exr"});
         CHECK(other.exit_code == 1);
-        CHECK(other.err == "error: 'c.exr' is there already: go on from it with --resume, or remove it\n");
+        CHECK(other.err == "error: 'c.exr' already exists; pass --resume to continue it, or remove it\n");
     }
     SECTION("nor is one of which only the previous generation is left")
     {
@@ -58,7 +59,7 @@ TEST_CASE("a rendering that is gone on from gives the same file", "[cli][checkpo
             folder.run({"scene.xml", "-o", "b.exr", "--spp", "60", "--checkpoint", "c.exr"});
         CHECK(other.exit_code == 1);
         CHECK(other.err ==
-              "error: 'c.previous.exr' is there already: go on from it with --resume, or remove it\n");
+              "error: 'c.previous.exr' already exists; pass --resume to continue it, or remove it\n");
         CHECK(folder.run({"scene.xml", "-o", "b.exr", "--spp", "50", "--checkpoint", "c.exr", "--resume"})
                   .exit_code == 0);
         CHECK(read_bytes(folder / "b.exr") == read_bytes(folder / "whole.exr"));
@@ -70,8 +71,8 @@ TEST_CASE("a rendering that is gone on from gives the same file", "[cli][checkpo
         const RunResult second =
             folder.run({"scene.xml", "-o", "a.exr", "--spp", "50", "--checkpoint", "c.exr", "--resume"});
         CHECK(second.exit_code == 0);
-        CHECK_THAT(second.err, ContainsSubstring("warning: cannot go on from 'c.exr': "));
-        CHECK_THAT(second.err, ContainsSubstring("; going on from 'c.previous.exr'\n"));
+        CHECK_THAT(second.err, ContainsSubstring("warning: cannot resume from 'c.exr': "));
+        CHECK_THAT(second.err, ContainsSubstring("; resuming from 'c.previous.exr'\n"));
         CHECK(read_bytes(folder / "a.exr") == read_bytes(folder / "whole.exr"));
 
         folder.write("c.exr", "nothing");
@@ -79,8 +80,8 @@ TEST_CASE("a rendering that is gone on from gives the same file", "[cli][checkpo
         const RunResult third =
             folder.run({"scene.xml", "-o", "a.exr", "--spp", "50", "--checkpoint", "c.exr", "--resume"});
         CHECK(third.exit_code == 1);
-        CHECK_THAT(third.err, ContainsSubstring("error: cannot go on from 'c.exr': "));
-        CHECK_THAT(third.err, ContainsSubstring("; nor its previous generation: "));
+        CHECK_THAT(third.err, ContainsSubstring("error: cannot resume from 'c.exr': "));
+        CHECK_THAT(third.err, ContainsSubstring("; and the previous checkpoint: "));
         CHECK(read_bytes(folder / "c.exr") == "nothing");
     }
 }
@@ -99,24 +100,23 @@ TEST_CASE("a checkpoint of another rendering is refused with the reason", "[cli]
         return result.err;
     };
     CHECK(refusal({"scene.xml", "--seed", "3"}) ==
-          "error: cannot go on from 'c.exr': the seed was 0 and is 3\n");
+          "error: cannot resume from 'c.exr': the seed was 0 and is 3\n");
     CHECK(refusal({"scene.xml", "--isa", "sse4.2", "--integrator", "path"}) ==
-          "error: cannot go on from 'c.exr': the integrator was path_mis and is path and the instruction set "
-          "was "
-          "avx2 and is sse4.2\n");
+          "error: cannot resume from 'c.exr': the integrator was path_mis and is path and the instruction "
+          "set was avx2 and is sse4.2\n");
     CHECK(refusal({"scene.xml", "--size", "20x20"}) ==
-          "error: cannot go on from 'c.exr': the resolution was the default and is 20x20\n");
+          "error: cannot resume from 'c.exr': the resolution was the default and is 20x20\n");
     CHECK(refusal({"scene.xml", "--crop", "0,0,8,8"}) ==
-          "error: cannot go on from 'c.exr': it has the pixels 0,0,48,36, not 0,0,8,8\n");
+          "error: cannot resume from 'c.exr': it has the pixels 0,0,48,36, not 0,0,8,8\n");
     CHECK(refusal({"scene.xml", "--spp", "2"}) ==
-          "error: cannot go on from 'c.exr': it has samples that are not asked for: 0,0,48,36:2-4\n");
+          "error: cannot resume from 'c.exr': it has samples that were not requested: 0,0,48,36:2-4\n");
     folder.write("scene.xml", small_scene() + "<!-- edited -->");
-    CHECK(refusal({"scene.xml"}) == "error: cannot go on from 'c.exr': 'scene.xml' has changed\n");
+    CHECK(refusal({"scene.xml"}) == "error: cannot resume from 'c.exr': 'scene.xml' has changed\n");
     folder.write("scene.xml", small_scene());
     std::filesystem::copy_file(folder / "a.exr", folder / "c.exr",
                                std::filesystem::copy_options::overwrite_existing);
     CHECK_THAT(folder.run({"scene.xml", "-o", "b.exr", "--checkpoint", "c.exr", "--resume"}).err,
-               ContainsSubstring("cannot go on from 'c.exr': it is no checkpoint and no part of a picture"));
+               ContainsSubstring("cannot resume from 'c.exr': it is not a checkpoint or a partial render"));
 }
 
 TEST_CASE("a signal ends a rendering with picture and checkpoint", "[cli][checkpoint]")
@@ -136,10 +136,9 @@ TEST_CASE("a signal ends a rendering with picture and checkpoint", "[cli][checkp
         kill(process, signal);
     });
     REQUIRE(stopped.exit_code == 128 + signal);
-    CHECK_THAT(
-        stopped.err,
-        ContainsSubstring("samples per pixel; to go on:\n    renderer scene.xml -o a.exr --spp "
-                          "40000 --crop 20,16,4,4 --checkpoint c.exr --checkpoint-every 0.01s --resume\n"));
+    CHECK_THAT(stopped.err, ContainsSubstring("samples per pixel; to resume:\n"
+                                              "    renderer scene.xml -o a.exr --spp 40000 --crop 20,16,4,4 "
+                                              "--checkpoint c.exr --checkpoint-every 0.01s --resume\n"));
     CHECK(text(header(folder / "a.exr"), "plumb:stop") == "it was interrupted");
     CHECK(text(header(folder / "a.exr"), "compression") == "rle"); // quickly
     REQUIRE(folder.run({"rerun", "a.exr", "-o", "same.exr"}).exit_code == 0);
@@ -165,7 +164,7 @@ TEST_CASE("a rendering ends when its noise is low enough, wherever it was interr
     CHECK(samples >= 16);
     CHECK(samples % 16 == 0);
     CHECK(integer(found, "plumb:biased") == 1);
-    CHECK(text(found, "plumb:biases") == "it stopped when its own noise was below 0.2");
+    CHECK(text(found, "plumb:biases") == "it stopped when its measured noise was below 0.2");
 
     REQUIRE(
         folder.run({"scene.xml", "--size", "16x12", "--spp", "21", "-o", "a.exr", "--checkpoint", "c.exr"})
@@ -234,16 +233,15 @@ TEST_CASE("parts make the picture, whatever the order and the grouping", "[cli][
         REQUIRE(folder.run({"scene.xml", "--spp", "9", "--part", "4/4", "--seed", "2", "-o", "other.exr"})
                     .exit_code == 0);
         CHECK(refusal({"merge", "p123.exr", "other.exr", "-o", "x.exr"}) ==
-              "error: 'p123.exr' and 'other.exr' are not of one picture: the seed was 0 and is 2\n");
+              "error: 'p123.exr' and 'other.exr' are not parts of one image: the seed was 0 and is 2\n");
         REQUIRE(folder.run({"scene.xml", "--spp", "10", "--part", "4/4", "-o", "longer.exr"}).exit_code == 0);
         CHECK(refusal({"merge", "p123.exr", "longer.exr", "-o", "x.exr"}) ==
-              "error: 'p123.exr' and 'longer.exr' are not of one picture: one is of 9 samples per pixel, the "
-              "other "
-              "of 10\n");
+              "error: 'p123.exr' and 'longer.exr' are not parts of one image: one has 9 samples per pixel, "
+              "the other 10\n");
         CHECK(refusal({"merge", "p1.exr", "p2.exr", "--checkpoint", "p1.exr"}) ==
               "error: cannot write 'p1.exr': it is a part to be merged\n");
         CHECK_THAT(refusal({"merge", "p1.exr", "scene.xml", "-o", "x.exr"}),
-                   ContainsSubstring("error: cannot go on from 'scene.xml': "));
+                   ContainsSubstring("error: cannot resume from 'scene.xml': "));
     }
     SECTION("a picture with holes says so")
     {
@@ -266,22 +264,21 @@ TEST_CASE("what does not go with checkpoints and parts", "[cli][merge]")
         return result.err;
     };
     CHECK(usage({"scene.xml", "--part", "1/2", "-o", "p.exr", "--checkpoint", "c.exr"}) ==
-          "error: --part and --checkpoint exclude each other: the output of a part is its checkpoint\n");
+          "error: --part and --checkpoint cannot be used together: the output of a part is its checkpoint\n");
     CHECK(usage({"scene.xml", "--part", "1/2"}) == "error: --part needs one -o,--output FILE.exr\n");
     CHECK(usage({"scene.xml", "--part", "1/2", "-o", "p.png"}) ==
-          "error: a checkpoint and a part are .exr files, and 'p.png' is none\n");
+          "error: 'p.png' must end in .exr: checkpoints and parts are .exr files\n");
     CHECK(usage({"scene.xml", "--part", "3/2", "-o", "p.exr"}) ==
           "error: --part must be K/N, part K of N from 1/N to N/N and N at most 65535, not '3/2'\n");
     CHECK(usage({"scene.xml", "--part-by", "tiles", "-o", "p.exr"}) == "error: --part-by needs --part K/N\n");
     CHECK(usage({"scene.xml", "--part", "1/2", "--time", "3", "-o", "p.exr"}) ==
-          "error: a part is a fixed set of samples: --part goes with --spp, not with --time or "
+          "error: a part is a fixed set of samples: use --part with --spp, not with --time or "
           "--target-error\n");
-    CHECK(usage({"scene.xml", "--resume", "-o", "p.exr"}) ==
-          "error: --resume needs --checkpoint FILE, to go on from\n");
+    CHECK(usage({"scene.xml", "--resume", "-o", "p.exr"}) == "error: --resume needs --checkpoint FILE\n");
     CHECK(usage({"scene.xml", "--checkpoint", "p.exr", "-o", "p.exr"}) ==
-          "error: 'p.exr' is to be written twice\n");
+          "error: 'p.exr' is listed as an output twice\n");
     CHECK(usage({"merge", "p.exr"}) ==
-          "error: merge needs -o,--output IMAGE, or --checkpoint FILE for parts that are to be merged on\n");
+          "error: merge needs -o,--output IMAGE, or --checkpoint FILE to merge the result with more parts\n");
 }
 
 TEST_CASE("work from before the scene language changed is neither gone on from nor merged", "[cli][merge]")
@@ -296,7 +293,7 @@ TEST_CASE("work from before the scene language changed is neither gone on from n
         folder.run({"scene.xml", "-o", "b.exr", "--checkpoint", "c.exr", "--resume", "--quiet"});
     CHECK(resumed.exit_code == 1);
     CHECK(resumed.err ==
-          "error: cannot go on from 'c.exr': the version of the scene language was 1 and is 2\n");
+          "error: cannot resume from 'c.exr': the version of the scene language was 1 and is 2\n");
     const RunResult merged = folder.run({"merge", "c.exr", "-o", "b.exr", "--quiet"});
     CHECK(merged.exit_code == 1);
     CHECK_THAT(merged.err, ContainsSubstring("'c.exr' was made with version 1 of the scene language") &&
@@ -341,7 +338,7 @@ TEST_CASE("signals that come in series do not lose the last checkpoint", "[cli][
     // If they wait together, on a busy machine, any thread may take any of them first.
     const std::set<int> signals = {SIGHUP, SIGXCPU, SIGUSR1};
     CHECK(signals.count(stopped.exit_code - 128) == 1);
-    CHECK_THAT(stopped.err, ContainsSubstring("; to go on:"));
+    CHECK_THAT(stopped.err, ContainsSubstring("; to resume:"));
     CHECK(is_there(folder / "a.exr"));
 }
 

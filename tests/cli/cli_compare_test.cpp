@@ -64,7 +64,7 @@ TEST_CASE("the exit code of compare is its verdict", "[cli][compare]")
 
     const RunResult sizes = folder.compare({"small.exr", "b.exr"});
     CHECK(sizes.exit_code == 1);
-    CHECK(sizes.err == "error: the pictures have different sizes: A is 16x16 pixels, B is 32x32 pixels\n");
+    CHECK(sizes.err == "error: the images have different sizes: A is 16x16 pixels, B is 32x32 pixels\n");
     const RunResult none = folder.compare({"a.exr", "none.exr"});
     CHECK(none.exit_code == 1);
     CHECK_THAT(none.err, ContainsSubstring("cannot read 'none.exr'"));

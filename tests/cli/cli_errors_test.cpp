@@ -23,10 +23,10 @@ TEST_CASE("a wrong command line exits with 2 and says why", "[cli][errors]")
     CHECK(complaint({"scene.xml", "--threads", "0"}) ==
           "error: --threads must be an integer from 1 to 1024, not '0'\n");
     CHECK(complaint({"scene.xml", "-o", "a.exr", "-o", "a.exr"}) ==
-          "error: 'a.exr' is to be written twice\n");
+          "error: 'a.exr' is listed as an output twice\n");
     const std::string absolute = (folder / "a.exr").string();
     CHECK(complaint({"scene.xml", "-o", "a.exr", "-o", absolute}) ==
-          "error: '" + absolute + "' is to be written twice\n");
+          "error: '" + absolute + "' is listed as an output twice\n");
     CHECK(complaint({"types", "difuse"}) == "error: unknown type 'difuse'; did you mean 'diffuse'?\n");
     CHECK(folder.files() == Names{"scene.xml"});
 }
@@ -42,9 +42,9 @@ TEST_CASE("a wrong scene exits with 1, says where, and writes nothing", "[cli][e
         CHECK(folder.files() == before);
         return result.err;
     };
-    CHECK(complaint({"none.xml"}) == "error: there is no scene file 'none.xml'\n");
+    CHECK(complaint({"none.xml"}) == "error: scene file 'none.xml' does not exist\n");
     CHECK_THAT(complaint({"scene.xml", "--crop", "40,0,9,1"}),
-               ContainsSubstring("error: the crop 40,0,9,1 is not inside the picture of 48x36 pixels\n"));
+               ContainsSubstring("error: the crop 40,0,9,1 is not inside the image of 48x36 pixels\n"));
     CHECK_THAT(complaint({"scene.xml", "--integrator", "path_miss"}),
                ContainsSubstring("did you mean 'path_mis'?"));
     CHECK_THAT(complaint({"scene.xml", "--integrator", "photonmapper"}),

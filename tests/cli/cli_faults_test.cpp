@@ -70,8 +70,9 @@ TEST_CASE("a checkpoint that cannot be written does not lose the picture", "[cli
                 .exit_code == 0);
     const RunResult result = lose_folder(folder, "gone", "a.exr", "gone/c.exr");
     CHECK(result.exit_code == 1);
-    CHECK_THAT(result.err, ContainsSubstring("warning: cannot write 'gone/c.exr': No such file or directory; "
-                                             "rendering goes on\n"));
+    CHECK_THAT(result.err,
+               ContainsSubstring(
+                   "warning: cannot write 'gone/c.exr': No such file or directory; rendering continues\n"));
     CHECK_THAT(result.err,
                ContainsSubstring("error: cannot write 'gone/c.exr': No such file or directory\n"));
     CHECK(read_bytes(folder / "a.exr") == read_bytes(folder / "whole.exr"));
@@ -88,9 +89,8 @@ TEST_CASE("a picture whose folder vanished is put beside the checkpoint", "[cli]
         folder.path(), "",
         once_there(folder / "kept/c.exr", [&] { std::filesystem::remove_all(folder / "gone"); }));
     CHECK(result.exit_code == 1);
-    CHECK(result.err ==
-          "error: cannot write 'gone/a.exr': the folder 'gone' does not exist; the picture is in "
-          "'kept/a.exr' instead\n");
+    CHECK(result.err == "error: cannot write 'gone/a.exr': the directory 'gone' does not exist; the image "
+                        "was written to 'kept/a.exr' instead\n");
     REQUIRE(folder.run({"scene.xml", "-o", "whole.exr", "--quiet", "--spp", "40000", "--crop", "20,16,4,4"})
                 .exit_code == 0);
     CHECK(read_bytes(folder / "kept/a.exr") == read_bytes(folder / "whole.exr"));
@@ -115,7 +115,7 @@ TEST_CASE("a scene that is edited while it is rendered is not gone on from", "[c
     more.emplace_back("--resume");
     const RunResult again = folder.run(more);
     CHECK(again.exit_code == 1);
-    CHECK_THAT(again.err, ContainsSubstring("error: cannot go on from 'c.exr': 'scene.xml' has changed"));
+    CHECK_THAT(again.err, ContainsSubstring("error: cannot resume from 'c.exr': 'scene.xml' has changed"));
 }
 
 // The address space that a sanitizer wants is not to be had in little memory.

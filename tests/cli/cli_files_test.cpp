@@ -75,7 +75,7 @@ TEST_CASE("one file under two names is found before the rendering", "[cli][files
 {
     const SceneFolder folder;
     fs::create_symlink("a.exr", folder / "b.exr");
-    check_refused(folder, {"-o", "a.exr", "-o", "b.exr"}, "'b.exr' is to be written twice", 2);
+    check_refused(folder, {"-o", "a.exr", "-o", "b.exr"}, "'b.exr' is listed as an output twice", 2);
     check_refused(folder, {"-o", "c.previous.exr", "--checkpoint", "c.exr"}, "is to be written twice", 2);
     fs::create_symlink("c.previous.exr", folder / "d.exr");
     check_refused(folder, {"-o", "d.exr", "--checkpoint", "c.exr"}, "is to be written twice", 2);
@@ -116,7 +116,7 @@ TEST_CASE("the name of the previous generation takes no file of others", "[cli][
                     .exit_code == 0);
         fs::copy_file(folder / "scene.xml", folder / "c.previous.exr");
         check_refused(folder, {"-o", "a.exr", "--checkpoint", "c.exr", "--resume"},
-                      "the state before is kept as 'c.previous.exr', and that is another file");
+                      "the previous state is kept as 'c.previous.exr', and that is another file");
         // Or it is that of another rendering.
         fs::remove(folder / "c.previous.exr");
         REQUIRE(folder

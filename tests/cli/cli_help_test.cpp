@@ -52,8 +52,8 @@ TEST_CASE("words that are no verbs are wrong usage", "[cli][help]")
           "error: unknown verb 'nonsense'; 'renderer --help' lists the verbs\n");
     CHECK(complaint({"help", "comapre"}) == "error: unknown verb 'comapre'; did you mean 'compare'?\n");
     CHECK(complaint({"help", "diffuse"}) ==
-          "error: 'diffuse' is no verb; 'renderer types diffuse' prints its manual\n");
-    CHECK(complaint({"help", "types", "diffuse"}) == "error: 'diffuse' is one word too many after 'types'\n");
+          "error: 'diffuse' is not a verb; 'renderer types diffuse' prints its manual\n");
+    CHECK(complaint({"help", "types", "diffuse"}) == "error: unexpected argument 'diffuse' after 'types'\n");
     CHECK(complaint({"nonsense", "scene.xml"}) ==
           "error: unknown verb 'nonsense'; 'renderer --help' lists the verbs\n");
     CHECK(complaint({"comapre", "a.exr", "b.exr"}) ==

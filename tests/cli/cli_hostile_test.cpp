@@ -275,9 +275,9 @@ TEST_CASE("samples outside the picture are refused", "[cli][hostile]")
         write_image(folder / "bad.exr", bad);
         const Outcome outcome = folder.run({"rerun", "(bad.exr)", "-o", "(again.exr)"});
         CHECK(outcome.code == 1);
-        CHECK_THAT(outcome.said,
-                   ContainsSubstring("bad.exr' makes no sense: plumb:samplesTaken has samples outside the "
-                                     "picture"));
+        CHECK_THAT(
+            outcome.said,
+            ContainsSubstring("bad.exr' is invalid: plumb:samplesTaken has samples outside the image"));
         CHECK_FALSE(std::filesystem::exists(folder / "again.exr"));
     }
 }
@@ -301,7 +301,7 @@ TEST_CASE("options in a header that do not change the picture are refused", "[cl
             const Outcome outcome = folder.run(words);
             CHECK(outcome.code == 1);
             check_outcome(folder, outcome, words[1].substr(1, words[1].size() - 2));
-            CHECK_THAT(outcome.said, ContainsSubstring("makes no sense: plumb:arguments: "));
+            CHECK_THAT(outcome.said, ContainsSubstring("is invalid: plumb:arguments: "));
             CHECK_FALSE(std::filesystem::exists(folder / "again.exr"));
         }
     }
@@ -330,10 +330,10 @@ TEST_CASE("settings in a header that are none of a picture are refused", "[cli][
 {
     const HostileFolder folder;
     for (const auto& [name, value, problem] : std::vector<std::tuple<const char*, const char*, const char*>>{
-             {"plumb:set.output", "stolen.exr", "plumb:set.output is no setting of a picture"},
+             {"plumb:set.output", "stolen.exr", "plumb:set.output is not a setting of an image"},
              {"plumb:set.spp", "0", "plumb:set.spp must be an integer from 1 to 67108864, not '0'"},
              {"plumb:settings", "2", "plumb:settings must be an integer from 2"},
-             {"plumb:arguments", "--spp 4", "plumb:settings and plumb:arguments exclude each other"}}) {
+             {"plumb:arguments", "--spp 4", "plumb:settings and plumb:arguments cannot be used together"}}) {
         Image bad = read_image(folder / "good.exr", false);
         set(bad.metadata, name, std::string(value));
         write_image(folder / "bad.exr", bad);
@@ -347,7 +347,7 @@ TEST_CASE("settings in a header that are none of a picture are refused", "[cli][
             const Outcome outcome = folder.run(words);
             CHECK(outcome.code == 1);
             check_outcome(folder, outcome, words[1].substr(1, words[1].size() - 2));
-            CHECK_THAT(outcome.said, ContainsSubstring(std::string("makes no sense: ") + problem));
+            CHECK_THAT(outcome.said, ContainsSubstring(std::string("is invalid: ") + problem));
             CHECK_FALSE(std::filesystem::exists(folder / "again.exr"));
         }
     }
@@ -408,6 +408,6 @@ TEST_CASE("sums that no samples can have are refused", "[cli][hostile]")
         const Outcome outcome =
             folder.run({"merge", "(bad.state.exr)", "--allow-missing", "-o", "(again.exr)"});
         CHECK(outcome.code == 1);
-        CHECK_THAT(outcome.said, ContainsSubstring("it has sums that its samples cannot have"));
+        CHECK_THAT(outcome.said, ContainsSubstring("its sums do not fit its samples"));
     }
 }

@@ -87,7 +87,7 @@ void check_kills(int kills_wanted)
     REQUIRE(read_bytes(folder / "a.exr") == whole);
     std::string counts;
     for (const std::string& phase : phases) counts += " " + phase + " " + std::to_string(kills[phase]);
-    WARN("kills:" << counts << "; pictures on the way: " << pictures);
+    WARN("kills:" << counts << "; images on the way: " << pictures);
     if (kills_wanted >= 100)
         for (const std::string& phase : phases) CHECK(kills[phase] > 0);
 }

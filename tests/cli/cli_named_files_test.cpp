@@ -87,12 +87,11 @@ TEST_CASE("a file in the working folder is found, and the notice says what to wr
             CAPTURE(name);
             const RunResult result = files.check(parameter, name);
             CHECK(result.exit_code == 3);
-            CHECK_THAT(
-                result.err,
-                ContainsSubstring("warning: '" + parameter.file +
-                                  "' is not beside 'scenes' but in the working folder, where another run may "
-                                  "find another file or none; write '../" +
-                                  parameter.file + "'\n"));
+            CHECK_THAT(result.err,
+                       ContainsSubstring("warning: '" + parameter.file +
+                                         "' is not beside 'scenes' but in the working directory, so another "
+                                         "run may find another file or none; write '../" +
+                                         parameter.file + "'\n"));
             // What it says to write is right.
             CHECK_THAT(files.check(parameter, "../" + parameter.file).err, !ContainsSubstring("warning"));
         }
@@ -148,7 +147,7 @@ TEST_CASE("scenes of suites, and scenes on the command line, have the same way o
 
     const RunResult slip = run_renderer({"check", "scenes/A.xml"}, files.path());
     CHECK(slip.exit_code == 1);
-    CHECK(slip.err == "error: there is no scene file 'scenes/A.xml'; did you mean 'scenes/a.xml'?\n");
+    CHECK(slip.err == "error: scene file 'scenes/A.xml' does not exist; did you mean 'scenes/a.xml'?\n");
 }
 
 TEST_CASE("a picture whose mesh lay in the working folder is rendered again, or refused",

@@ -96,5 +96,5 @@ TEST_CASE("a race takes a time instead of a number of samples", "[cli][race]")
           "error: race needs two estimators or more; name them with --integrators\n");
     CHECK(folder.run({"race", "easy.xml", "--rounds", "2"}).exit_code == 2);
     CHECK(folder.run({"agree", "easy.xml", "--rounds", "5"}).err ==
-          "error: option '--rounds' does not go with agree\n");
+          "error: option '--rounds' cannot be used with agree\n");
 }

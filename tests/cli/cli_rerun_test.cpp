@@ -77,11 +77,11 @@ TEST_CASE("what makes a picture biased is in its header and in the log", "[cli][
         small_scene(R"(<integrator type="path_mis"><integer name="maxDepth" value="2"/></integrator>)"));
     const RunResult run = folder.run({"cut.xml", "-o", "a.exr", "--emitters", "absorb"});
     REQUIRE(run.exit_code == 0);
-    CHECK_THAT(run.err, ContainsSubstring("biased: light of more than 2 surface bounces is left out\n"));
+    CHECK_THAT(run.err, ContainsSubstring("biased: light of more than 2 surface bounces is omitted\n"));
     const auto found = header(folder / "a.exr");
     CHECK(integer(found, "plumb:biased") == 1);
-    CHECK(text(found, "plumb:biases") == "light of more than 2 surface bounces is left out");
-    CHECK(text(found, "plumb:model") == "emitters absorb the light that meets them");
+    CHECK(text(found, "plumb:biases") == "light of more than 2 surface bounces is omitted");
+    CHECK(text(found, "plumb:model") == "emitters absorb incident light");
 }
 
 TEST_CASE("a picture is rendered again from its header, to the same bytes", "[cli][rerun]")
@@ -121,19 +121,18 @@ TEST_CASE("rerun names what has changed", "[cli][rerun]")
         return run.err;
     };
     folder.write("triangle.obj", triangle + "\n");
-    CHECK(complaint() == "error: the scene is not what it was: 'triangle.obj' has changed\n");
+    CHECK(complaint() == "error: the scene has changed: 'triangle.obj' has changed\n");
     folder.write("triangle.obj", triangle);
     folder.write("scene.xml", scene_with_mesh() + "\n");
-    CHECK(complaint() == "error: the scene is not what it was: 'scene.xml' has changed\n");
+    CHECK(complaint() == "error: the scene has changed: 'scene.xml' has changed\n");
     folder.write("scene.xml", small_scene());
-    CHECK(complaint() == "error: the scene is not what it was: 'scene.xml' has changed and 'triangle.obj' is "
-                         "no longer read\n");
+    CHECK(complaint() ==
+          "error: the scene has changed: 'scene.xml' has changed and 'triangle.obj' is no longer an input\n");
     folder.write("moved/scene.xml", scene_with_mesh());
     folder.write("moved/triangle.obj", triangle);
     std::filesystem::remove(folder / "scene.xml");
-    CHECK(complaint() ==
-          "error: there is no scene file 'scene.xml', neither here nor beside 'a.exr'; say where it is "
-          "with --scene\n");
+    CHECK(complaint() == "error: scene file 'scene.xml' does not exist, neither here nor beside 'a.exr'; say "
+                         "where it is with --scene\n");
     REQUIRE(folder.run({"rerun", "a.exr", "-o", "b.exr", "--scene", "moved/scene.xml"}).exit_code == 0);
     CHECK(read_bytes(folder / "a.exr") == read_bytes(folder / "b.exr"));
 }
@@ -144,14 +143,13 @@ TEST_CASE("rerun takes pictures of ours, and keeps them", "[cli][rerun]")
     write_image(folder / "foreign.exr", Image(2, 2));
     const RunResult foreign = folder.run({"rerun", "foreign.exr", "-o", "b.exr"});
     CHECK(foreign.exit_code == 1);
-    CHECK(foreign.err ==
-          "error: the header of 'foreign.exr' does not say how the picture was made; the .exr files "
-          "that Plumb renders do\n");
+    CHECK(foreign.err == "error: the header of 'foreign.exr' does not say how the image was made; those of "
+                         ".exr files rendered by Plumb do\n");
     REQUIRE(folder.run({"scene.xml", "-o", "a.exr"}).exit_code == 0);
     const std::string bytes = read_bytes(folder / "a.exr");
     const RunResult same = folder.run({"rerun", "a.exr", "-o", "a.exr"});
     CHECK(same.exit_code == 1);
-    CHECK(same.err == "error: cannot write 'a.exr': it is the picture to be rendered again\n");
+    CHECK(same.err == "error: cannot write 'a.exr': it is the image to render again\n");
     CHECK(read_bytes(folder / "a.exr") == bytes);
     CHECK(folder.run({"rerun", "a.exr"}).exit_code == 2);
     CHECK(folder.run({"rerun", "none.exr", "-o", "b.exr"}).exit_code == 1);
@@ -179,10 +177,9 @@ TEST_CASE("a picture that was made when the scene language meant something else 
         R"(<emitter type="directional"><vector name="direction" value="0,-1,0"/></emitter>)";
     const RunResult refused = picture_of(sun);
     CHECK(refused.exit_code == 1);
-    CHECK(refused.err ==
-          "error: cannot render 'old.exr' again: it was made with version 1 of the scene language, in which "
-          "the "
-          "direction of a directional light had another meaning than in version 2; render the scene anew\n");
+    CHECK(refused.err == "error: cannot render 'old.exr' again: it was made with version 1 of the scene "
+                         "language, in which the direction of a directional light had a different meaning "
+                         "than in version 2; render the scene itself\n");
     const auto checks = [](const char* delta) {
         return fmt::format(
             R"(<shape type="sphere"><bsdf type="diffuse"><texture type="checkerboard_color" name="albedo">)"

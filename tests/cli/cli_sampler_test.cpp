@@ -18,8 +18,7 @@ RunResult run_with(const SceneFolder& folder, const std::string& sampler, const 
     return folder.run(all);
 }
 
-const std::string total_has_changed =
-    "the total number of samples, on which those of the sampler depend, was ";
+const std::string total_has_changed = "the sampler's total number of samples was ";
 
 } // namespace
 
@@ -82,23 +81,21 @@ TEST_CASE("a picture by stratified is not gone on with past its total", "[cli][s
     };
     const Names more = {"scene.xml",    "--size", "16x12",    "--sampler", "stratified", "--spp",  "9",
                         "--checkpoint", "c.exr",  "--resume", "-o",        "b.exr",      "--quiet"};
-    CHECK(refusal(more) == "error: cannot go on from 'c.exr': " + total_has_changed + "4 and is 9\n");
+    CHECK(refusal(more) == "error: cannot resume from 'c.exr': " + total_has_changed + "4 and is 9\n");
 
     REQUIRE(run_with(folder, "stratified", {"--spp", "4", "--part", "1/2", "-o", "p.exr"}).exit_code == 0);
     REQUIRE(run_with(folder, "stratified", {"--spp", "9", "--part", "2/2", "-o", "q.exr"}).exit_code == 0);
     CHECK(refusal({"merge", "p.exr", "q.exr", "-o", "m.exr"}) ==
-          "error: 'p.exr' and 'q.exr' are not of one picture: " + total_has_changed + "4 and is 9\n");
+          "error: 'p.exr' and 'q.exr' are not parts of one image: " + total_has_changed + "4 and is 9\n");
 
     CHECK(refusal({"scene.xml", "--sampler", "stratified", "--time", "1", "-o", "t.exr", "--quiet"}) ==
-          "error: the sampler 'stratified' must know how many samples a pixel gets in all: with --time and "
-          "--target-error give the most by --spp, or take --sampler sobol\n");
+          "error: the sampler 'stratified' depends on the total number of samples per pixel: with --time or "
+          "--target-error, give the maximum with --spp, or use --sampler sobol\n");
     CHECK(run_with(folder, "stratified", {"--time", "1h", "--spp", "3", "-o", "t.exr"}).exit_code == 0);
 
-    CHECK(
-        refusal({"replay", "scene.xml", "--sampler", "stratified", "--pixel", "1,1", "--sample", "4",
-                 "--quiet"}) ==
-        "error: sample 4 is asked for, but the sampler spreads a total of 4 samples over a pixel and has no "
-        "others; give the total with --spp\n");
+    CHECK(refusal({"replay", "scene.xml", "--sampler", "stratified", "--pixel", "1,1", "--sample", "4",
+                   "--quiet"}) == "error: sample 4 was requested, but the sampler has a total of 4 samples "
+                                  "per pixel; give the total with --spp\n");
 }
 
 TEST_CASE("samplers agree", "[cli][sampler][agree]")

@@ -27,7 +27,7 @@ std::string lone_renderer(const SceneFolder& folder)
 }
 
 const std::string missing =
-    "error: cannot read or write pictures: there is no libplumb_images.so, a part of Plumb, in '";
+    "error: cannot read or write images: libplumb_images.so, a part of Plumb, is neither in '";
 
 } // namespace
 
@@ -52,7 +52,7 @@ TEST_CASE("a program without libplumb_images.so says so, before it has rendered 
         run_program({program, "scene.xml", "-o", "a.exr", "--quiet", "--spp", "50000000"}, folder.path());
     CHECK(result.exit_code == 1);
     CHECK(result.err == missing + (folder / "bin").string() + "', '" + (folder / "lib/plumb").string() +
-                            "' or where libraries are\n");
+                            "' nor in the library path\n");
     CHECK(folder.files() == before);
     CHECK(run_program({program, "types"}, folder.path()).exit_code == 0);
 }
@@ -86,7 +86,7 @@ TEST_CASE("libplumb_images.so is found beside the program, where it is installed
         folder.write("bin/libplumb_images.so", "no library");
         const RunResult result = run_program(words, folder.path());
         CHECK(result.exit_code == 1);
-        CHECK(result.err == "error: cannot read or write pictures: " +
+        CHECK(result.err == "error: cannot read or write images: " +
                                 (folder / "bin/libplumb_images.so").string() + ": file too short\n");
     }
 }

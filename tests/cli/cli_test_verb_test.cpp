@@ -32,7 +32,7 @@ TEST_CASE("test prints a line a test and counts them", "[cli][test_verb]")
     CHECK_THAT(result.out, ContainsSubstring("  bsdf 'mirror' (line 9) at 10 degrees: mean 1 +- 0, "
                                              "reference 1, p 1: passed\n"));
     CHECK(result.out.ends_with("Passed 9/9 tests.\nAll 2 files: passed 10/10 tests.\n"));
-    CHECK(result.err == "dialect: plumb (the scene file says so)\n");
+    CHECK(result.err == "dialect: plumb (set by the scene file)\n");
 }
 
 TEST_CASE("a test that fails is repeated, and is exit code 3", "[cli][test_verb]")
@@ -62,7 +62,7 @@ TEST_CASE("chi2tests and the options of scenes", "[cli][test_verb]")
     const RunResult absorbed = run_tests_of({"furnace.xml", "--dialect", "zaragoza"});
     CHECK(absorbed.exit_code == 3);
     CHECK(absorbed.out.ends_with("Passed 0/3 tests.\n"));
-    CHECK(absorbed.err == "dialect: zaragoza (--dialect says so)\n");
+    CHECK(absorbed.err == "dialect: zaragoza (set by --dialect)\n");
     const RunResult defined = run_tests_of({"furnace.xml", "-D", "albedo=0.4 0.4 0.4"});
     CHECK(defined.exit_code == 3);
     CHECK(defined.out.ends_with("Passed 1/3 tests.\n"));
@@ -99,7 +99,7 @@ TEST_CASE("files that are not tests are all complained of, and nothing runs", "[
         run_tests_of({"none.xml", "point_light.xml", "room.obj", "../bad_tests/empty.xml"});
     CHECK(result.exit_code == 1);
     CHECK(result.out.empty());
-    CHECK_THAT(result.err, ContainsSubstring("error: there is no test file 'none.xml'\n"));
+    CHECK_THAT(result.err, ContainsSubstring("error: test file 'none.xml' does not exist\n"));
     CHECK_THAT(result.err, ContainsSubstring("room.obj: error: this is an OBJ mesh"));
     CHECK_THAT(result.err, ContainsSubstring("../bad_tests/empty.xml:1:1: error: the test has neither"));
 

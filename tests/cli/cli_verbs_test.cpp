@@ -46,13 +46,13 @@ TEST_CASE("--quiet prints nothing, --verbose more", "[cli][log]")
     CHECK(quiet.exit_code == 0);
     CHECK(quiet.out.empty());
     CHECK(quiet.err.empty());
-    CHECK(folder.run({"none.xml", "--quiet"}).err == "error: there is no scene file 'none.xml'\n");
+    CHECK(folder.run({"none.xml", "--quiet"}).err == "error: scene file 'none.xml' does not exist\n");
 
     const RunResult verbose = folder.run({"scene.xml", "-o", "a.exr", "--verbose"});
     CHECK(verbose.exit_code == 0);
     CHECK(verbose.out.empty());
     for (const char* fact :
-         {"scene: objects 4, triangles ", "emitters 1\n", "picture: 48 x 36 pixels, 4 samples each, seed 0",
+         {"scene: objects 4, triangles ", "emitters 1\n", "image: 48 x 36 pixels, 4 samples each, seed 0",
           "integrator: path_mis; sampler: independent", "embree: ", "hash "})
         CHECK_THAT(verbose.err, ContainsSubstring(fact));
 }
@@ -71,7 +71,7 @@ TEST_CASE("samples that were left out are counted, and can be replayed", "[cli][
     CHECK(result.exit_code == 0);
     const std::string first = "sample 0 of pixel 1,0 (out of the film's range: 1000000000000 1 1)";
     const std::string words = " replay 'too bright.xml' --pixel 1,0 --sample 0 --spp 4";
-    CHECK_THAT(result.err, ContainsSubstring("warning: 16 samples were left out, the first is " + first +
+    CHECK_THAT(result.err, ContainsSubstring("warning: 16 samples were discarded, the first is " + first +
                                              "; to see its path:\n    renderer" + words + "\n"));
     CHECK_THAT(result.out, ContainsSubstring("\"count\": 16,"));
     CHECK_THAT(result.out, ContainsSubstring("\"why\": \"out of the film's range\""));
@@ -137,7 +137,7 @@ TEST_CASE("replay prints the path of one sample", "[cli][replay]")
     const RunResult outside =
         folder.run({"replay", "scene.xml", "--pixel", "48,0", "--sample", "0", "--quiet"});
     CHECK(outside.exit_code == 1);
-    CHECK(outside.err == "error: pixel 48,0 is not inside the picture of 48x36 pixels\n");
+    CHECK(outside.err == "error: pixel 48,0 is not inside the image of 48x36 pixels\n");
     CHECK(folder.files() == Names{"scene.xml"});
 }
 
@@ -209,7 +209,7 @@ TEST_CASE("new writes a scene that renders as it is", "[cli][new]")
     CHECK_THAT(text, ContainsSubstring("<scene dialect=\"plumb\">") && ContainsSubstring("<!--"));
     const RunResult checked = run_renderer({"check", "my scene.xml"}, folder.path());
     CHECK(checked.exit_code == 0);
-    CHECK_THAT(checked.out, ContainsSubstring("nothing is wrong or doubtful"));
+    CHECK_THAT(checked.out, ContainsSubstring("no mistakes found"));
     const RunResult rendered =
         run_renderer({"my scene.xml", "-o", "a.exr", "--spp", "2", "--size", "48x32"}, folder.path());
     CHECK(rendered.exit_code == 0);
@@ -218,7 +218,7 @@ TEST_CASE("new writes a scene that renders as it is", "[cli][new]")
     // What is there stays there, file or folder or link.
     const RunResult again = run_renderer({"new", "my scene.xml"}, folder.path());
     CHECK(again.exit_code == 1);
-    CHECK(again.err == "error: 'my scene.xml' is there already, and is left as it is; name another file\n");
+    CHECK(again.err == "error: 'my scene.xml' already exists; choose another file name\n");
     CHECK(read_bytes(folder / "my scene.xml") == text);
     std::filesystem::create_symlink("elsewhere", folder / "link.xml");
     CHECK(run_renderer({"new", "link.xml"}, folder.path()).exit_code == 1);

@@ -30,12 +30,13 @@ void add_scene_words(Words& words)
     }
     for (const char* tag :
          {"integer", "float", "boolean", "string", "point", "vector", "color", "transform", "default",
-          "include", "scene", "test", "suite", "render", "group", "define", "reference", "mesh"}) {
+          "include", "scene", "test", "suite", "render", "group", "define", "reference", "mesh", "ref"}) {
         words.insert(fmt::format("<{} ", tag));
         words.insert(fmt::format("</{}>", tag));
     }
     for (const char* word : {"value=\"",
                              "name=\"",
+                             "id=\"a\"",
                              "type=\"",
                              "dialect=\"plumb\"",
                              "dialect=\"eth\"",
@@ -105,7 +106,8 @@ void add_picture_words(Words& words)
                              "sum.R.0",
                              "squares.R.0",
                              "large.R.0",
-                             "plumb:state 2",
+                             "plumb:state 3",
+                             "plumb:stateLayers albedo:R,G,B:mean object:id:id",
                              "plumb:stateSamples",
                              "plumb:stateRays",
                              "plumb:stateSeconds",

@@ -33,7 +33,7 @@ private:
 // What src/io/oiio and the libraries below it refuse, and what takes too long.
 void check(const PixelRect& data, std::size_t channels)
 {
-    if (data.width < 1 || data.height < 1 || channels < 1) throw Error("there is nothing in the picture");
+    if (data.width < 1 || data.height < 1 || channels < 1) throw Error("there is nothing in the image");
     for (const int place : {data.x, data.y})
         if (place < -farthest_pixel || place > farthest_pixel) throw Error("the pixels are too far out");
     if (double(data.width) * double(data.height) * static_cast<double>(channels) > most_values)

@@ -111,11 +111,11 @@ TEST_CASE("render refuses options that make no sense", "[regression][determinism
     RenderOptions options;
     options.crop = PixelRect{50, 0, 4, 4};
     CHECK_THROWS_WITH(render(loaded.job, options),
-                      "the crop 50,0,4,4 is not inside the picture of 53x41 pixels");
+                      "the crop 50,0,4,4 is not inside the image of 53x41 pixels");
     options.crop.reset();
     options.samples_per_pixel = film_max_samples + 1;
     CHECK_THROWS_WITH(render(loaded.job, options),
                       "samples per pixel must be from 1 to 67108864, not 67108865");
     CHECK_THROWS_WITH(replay(loaded.job, 0, {53, 0}, 0),
-                      "pixel 53,0 is not inside the picture of 53x41 pixels");
+                      "pixel 53,0 is not inside the image of 53x41 pixels");
 }

@@ -60,8 +60,10 @@ std::vector<BsdfCase> make_cases()
     };
     std::set<std::string> covered;
     for (const auto& one : cases) covered.insert(one.params.type());
-    for (const auto& entry : bsdf_types())
-        if (!covered.contains(std::string(entry.name))) cases.push_back({bsdf(std::string(entry.name)), 1});
+    for (auto& sample : samples_of(bsdf_types())) {
+        const std::string type = sample->element().value("type");
+        if (!covered.contains(type)) cases.push_back({bsdf(type), 1, false, std::move(sample)});
+    }
     return cases;
 }
 
@@ -69,12 +71,12 @@ std::vector<BsdfCase> make_cases()
 
 std::string BsdfCase::name() const
 {
-    return params.text();
+    return sample ? sample->text() : params.text();
 }
 
 std::unique_ptr<Bsdf> BsdfCase::build() const
 {
-    return params.build_type(bsdf_types());
+    return sample ? sample->build(bsdf_types()) : params.build_type(bsdf_types());
 }
 
 const std::vector<BsdfCase>& bsdf_cases()

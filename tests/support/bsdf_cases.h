@@ -5,6 +5,7 @@
 
 #include "plumb/bsdf.h"
 #include "support/params.h"
+#include "support/samples.h"
 #include "support/statistics.h"
 
 namespace plumb::test {
@@ -13,12 +14,13 @@ struct BsdfCase {
     ParamsBuilder params;
     double narrowness = 1.0;   // roughness of its narrowest lobe: cells of grids follow it
     bool gains_energy = false; // its formula reflects more than it receives
+    std::shared_ptr<const Sample> sample = nullptr; // instead of params
 
     std::string name() const; // the type and its parameters
     std::unique_ptr<Bsdf> build() const;
 };
 
-// At least one of each type of the catalog: the default parameters where none are listed.
+// At least one of each type of the catalog: the samples of its doc block where none are listed.
 const std::vector<BsdfCase>& bsdf_cases();
 
 // A direction at `degrees` from the normal (above 90: behind the surface).

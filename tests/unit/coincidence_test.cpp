@@ -198,32 +198,28 @@ TEST_CASE("check names surfaces that coincide, and what comes of it", "[unit][co
                       turned = sheet(flat, -0.5, -0.5, 0.5, 0.5, 0, 1, true);
     CHECK_THAT(texts(load(floor, tile, "", glass)),
                ContainsSubstring("mesh 'obj' (s.xml:3): it coincides with mesh 'obj' (s.xml:2) around (") &&
-                   ContainsSubstring(
-                       "): paths miss one of the two surfaces, so that light goes wrong ways; leave a gap of "
-                       "at least 0.0002, or let them intersect\n"));
+                   ContainsSubstring("): paths miss one of the two surfaces, so light takes wrong paths; "
+                                     "leave a gap of at least 0.0002, or let them intersect\n"));
     CHECK_THAT(texts(load(floor, tile, "", lamp)),
                ContainsSubstring("mesh 'obj' (s.xml:3): it coincides with mesh 'obj' (s.xml:2) around (") &&
                    ContainsSubstring(
-                       "): where rays meet the other one the lamp is dark, and yet it is sampled there, so "
-                       "that integrators disagree; move the lamp at least 0.0002 to its front\n"));
-    CHECK_THAT(texts(load(floor, tile, lamp, lamp)),
-               ContainsSubstring("mesh 'obj' (s.xml:2): it coincides with mesh 'obj' (s.xml:3) around (") &&
-                   ContainsSubstring(
-                       "): rays meet only one of two lamps in one place, and both are sampled, so that "
-                       "integrators disagree; remove one, or leave a gap of at least 0.0002\n"));
-    CHECK_THAT(texts(load(floor, tile)),
-               ContainsSubstring(
-                   "): which of the two rays meet is left to chance, which shows if their BSDFs differ; "
-                   "remove one, or leave a gap of at least 0.0002\n"));
-    CHECK_THAT(texts(load(floor, turned)),
-               ContainsSubstring(
-                   "): rays meet the front of the one or the black back of the other by chance; leave a "
-                   "gap of at least 0.0002\n"));
+                       "): where rays hit the other surface the emitter is dark, yet it is sampled there, so "
+                       "integrators disagree; move the emitter at least 0.0002 to its front\n"));
     CHECK_THAT(
-        texts(load(floor + tile, "v 9 9 9\nv 8 9 9\nv 9 8 9\nf 1 2 3\n")),
-        ContainsSubstring("mesh 'obj' (s.xml:2): parts of it coincide around (") &&
-            ContainsSubstring("): which of them rays meet is left to chance, which shows if their normals or "
-                              "texture coordinates differ\n"));
+        texts(load(floor, tile, lamp, lamp)),
+        ContainsSubstring("mesh 'obj' (s.xml:2): it coincides with mesh 'obj' (s.xml:3) around (") &&
+            ContainsSubstring("): rays hit only one of two emitters in one place, but both are sampled, so "
+                              "integrators disagree; remove one, or leave a gap of at least 0.0002\n"));
+    CHECK_THAT(texts(load(floor, tile)),
+               ContainsSubstring("): rays hit either of them by chance, which is visible if their BSDFs "
+                                 "differ; remove one, or leave a gap of at least 0.0002\n"));
+    CHECK_THAT(texts(load(floor, turned)),
+               ContainsSubstring("): rays hit the front of one or the black back of the other by chance; "
+                                 "leave a gap of at least 0.0002\n"));
+    CHECK_THAT(texts(load(floor + tile, "v 9 9 9\nv 8 9 9\nv 9 8 9\nf 1 2 3\n")),
+               ContainsSubstring("mesh 'obj' (s.xml:2): parts of it coincide around (") &&
+                   ContainsSubstring("): rays hit either of them by chance, which is visible if their "
+                                     "normals or texture coordinates differ\n"));
 }
 
 TEST_CASE("an opaque box that stands on a floor is no doubt", "[unit][coincidence]")

@@ -96,11 +96,11 @@ TEST_CASE("channels are found by name", "[unit][compare]")
 TEST_CASE("pictures that cannot be compared say why", "[unit][compare]")
 {
     CHECK(problem(grey(2, 1, 0.f), grey(1, 2, 0.f)) ==
-          "the pictures have different sizes: A is 2x1 pixels, B is 1x2 pixels");
+          "the images have different sizes: A is 2x1 pixels, B is 1x2 pixels");
     CHECK(problem(Image({1, 0, 1, 1}, 2, 1, {"Y"}), grey(2, 1, 0.f)) ==
-          "the pictures have different sizes: A is 2x1 pixels of which 1,0,1,1 exist, B is 2x1 pixels");
+          "the images have different sizes: A is 2x1 pixels of which 1,0,1,1 exist, B is 2x1 pixels");
     CHECK(problem(grey(1, 1, 0.f, {"R", "G", "B"}), grey(1, 1, 0.f)) ==
-          "the pictures have different channels: A has R, G, B, B has Y");
+          "the images have different channels: A has R, G, B, B has Y");
     CHECK(problem(grey(1, 1, 0.f), grey(1, 1, 0.f, {"Z", "A"})) ==
           "B has neither the channels R, G and B nor Y, but Z, A; only these can be compared");
     CompareSettings options;
@@ -326,7 +326,7 @@ TEST_CASE("pictures too alike are said to be of one seed only if they are", "[un
         REQUIRE(comparison.corrected->high < 0.0);
         return comparison_text(comparison, without_flip());
     };
-    CHECK_THAT(text("7", "path"), ContainsSubstring("for their seed is the same"));
+    CHECK_THAT(text("7", "path"), ContainsSubstring("because they have the same seed"));
     CHECK_THAT(text("8", "path"), !ContainsSubstring("seed"));
     CHECK_THAT(text("7", "path_mis"), !ContainsSubstring("seed"));
 }

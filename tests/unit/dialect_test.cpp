@@ -167,7 +167,7 @@ TEST_CASE("where nothing decides", "[unit][dialect]")
     const DialectEvidence plain = find_dialect(scene(path_mis + lamp));
     CHECK(plain.name == DialectName::plumb);
     CHECK(plain.suspects.empty());
-    CHECK(plain.reason == "nothing in the file is peculiar to one course");
+    CHECK(plain.reason == "no mark in the file indicates a course");
     CHECK(warnings(path_mis + lamp).empty()); // no file is warned of on every run
     const std::string nothing_of_its_own =
         "<emitter type='environment'/><mesh type='obj'><bsdf type='diffuse'>"
@@ -271,7 +271,7 @@ TEST_CASE("who decides on the dialect", "[unit][dialect]")
     CHECK(overridden.mirrored_view);
     CHECK(overridden.environment_scale == 2.f);
     CHECK(overridden.environment_flipped);
-    CHECK(overridden.reason == "--dialect says so; --emitters scatter; --mirror on; --envmap-scale 2");
+    CHECK(overridden.reason == "set by --dialect; --emitters scatter; --mirror on; --envmap-scale 2");
 }
 
 TEST_CASE("a sphere with path_mis may be eth's", "[unit][dialect]")

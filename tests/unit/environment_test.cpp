@@ -301,7 +301,7 @@ TEST_CASE("environment pictures that are not light", "[unit][environment]")
         ParamsBuilder("emitter", "environment").folder(folder.path()).string("filename", "negative.exr");
     const auto complaints = negative.complaints<EnvironmentEmitter, Emitter>();
     REQUIRE(complaints.size() == 1);
-    CHECK_THAT(complaints[0], ContainsSubstring("warning: the picture has negative values"));
+    CHECK_THAT(complaints[0], ContainsSubstring("warning: the image has negative values"));
     const auto emitter = negative.build<EnvironmentEmitter, Emitter>();
     CHECK(integral([&](const Vec3f& wi) { return min_component(seen(*emitter, wi).radiance); }) == 0.0);
 

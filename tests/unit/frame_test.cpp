@@ -39,6 +39,26 @@ TEST_CASE("a frame is orthonormal about any normal", "[unit][frame]")
     }
 }
 
+TEST_CASE("a frame is turned along a direction", "[unit][frame]")
+{
+    TestRandom random(3);
+    for (int i = 0; i < 500; ++i) {
+        const Vec3f normal = random.direction(), along = random.direction() * 100.f;
+        const Frame frame(normal, along);
+        constexpr double margin = 4e-7;
+        CHECK(frame.n == normal);
+        CHECK(length(frame.s) == Approx(1.0).margin(margin));
+        CHECK(dot(frame.s, frame.n) == Approx(0.0).margin(1e-4)); // where they are nearly parallel
+        CHECK(dot(cross(frame.n, frame.s), frame.t) == Approx(1.0).margin(1e-6));
+        CHECK(dot(cross(along, normal), frame.s) == Approx(0.0).margin(1e-3));
+        CHECK(dot(along, frame.s) > 0.f);
+    }
+    // Where it has no meaning, the frame is any.
+    const Vec3f up(0, 0, 1);
+    for (const Vec3f& along : {Vec3f(0.f), Vec3f(0, 0, 5), Vec3f(infinity, 0, 0), Vec3f(0, 0, -1e-30f)})
+        CHECK(Frame(up, along).s == Frame(up).s);
+}
+
 TEST_CASE("local and world directions are inverse to each other", "[unit][frame]")
 {
     TestRandom random(2);

@@ -258,11 +258,11 @@ TEST_CASE("a path that cannot be written is found out", "[unit][image]")
     };
     check("a.bmp", "unknown extension '.bmp'; known are .exr, .hdr, .tif, .tiff, .png, .jpg, .jpeg");
     check("a", "the name has no extension; known are .exr");
-    check("none/a.exr", "the folder '" + (folder / "none").string() + "' does not exist");
+    check("none/a.exr", "the directory '" + (folder / "none").string() + "' does not exist");
     std::filesystem::create_directory(folder / "b.exr");
-    check("b.exr", "a folder of that name exists");
+    check("b.exr", "a directory of that name exists");
     folder.write("file", "");
-    check("file/a.exr", "is no folder");
+    check("file/a.exr", "is not a directory");
     check("", "no file name");
     CHECK(folder.files() == std::vector<std::string>{"b.exr", "file"});
     CHECK_NOTHROW(check_image_path(folder / "good.EXR"));
@@ -343,7 +343,7 @@ TEST_CASE("broken pictures are errors on one line that name the file", "[unit][i
     for (const std::string extension : {".png", ".exr", ".hdr", ".tif", ".jpg"}) {
         folder.write("empty" + extension, "");
         check("empty" + extension);
-        folder.write("text" + extension, "this is no picture");
+        folder.write("text" + extension, "this is no image");
         check("text" + extension);
     }
     for (const std::string extension : {".png", ".exr", ".tif", ".jpg", ".hdr"}) {
@@ -417,8 +417,7 @@ TEST_CASE("pictures far from any corner are read right or refused", "[unit][imag
         CHECK(image.pixel(window.x + 199, window.y)[0] == Approx(100.0 / 255.0));
     }
     for (const std::uint32_t column : {1u << 30, 2147483000u, 2147483520u})
-        CHECK_THROWS_WITH(read(column),
-                          ContainsSubstring("its pixels are too far from the picture's corner"));
+        CHECK_THROWS_WITH(read(column), ContainsSubstring("its pixels are too far from the image's corner"));
 }
 
 TEST_CASE("images can be moved", "[unit][image]")

@@ -194,14 +194,14 @@ TEST_CASE("an integrator says what it leaves out", "[unit][integrator]")
     for (const char* type : {"path", "path_nee", "path_mis", "path_mats", "path_ems"}) {
         CHECK(bias(integrator_params(type)).empty());
         CHECK(bias(integrator_params(type).integer("maxDepth", 5)) ==
-              "light of more than 5 surface bounces is left out");
-        CHECK(bias(integrator_params(type).integer("maxDepth", 0)) == "all but emitted light is left out");
+              "light of more than 5 surface bounces is omitted");
+        CHECK(bias(integrator_params(type).integer("maxDepth", 0)) == "all light except emission is omitted");
     }
     CHECK(bias(configured_path(false, "russian-roulette", 0.2)).empty());
-    CHECK(bias(configured_path(true, "max-depth", 3)) == "light of more than 3 surface bounces is left out");
+    CHECK(bias(configured_path(true, "max-depth", 3)) == "light of more than 3 surface bounces is omitted");
     for (const char* type :
          {"direct", "direct_ems", "direct_mats", "direct_mis", "direct-mis", "direct_whitted"})
-        CHECK(bias(integrator_params(type)) == "light of more than 1 surface bounce is left out");
+        CHECK(bias(integrator_params(type)) == "light of more than 1 surface bounce is omitted");
     for (const char* type : {"whitted", "normals", "depth", "ao", "simple"})
         CHECK_FALSE(bias(integrator_params(type)).empty());
     CHECK_FALSE(bias(integrator_params("av").number("length", 1.0)).empty());

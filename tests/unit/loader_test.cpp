@@ -156,10 +156,10 @@ TEST_CASE("what nobody reads is ignored; with a warning if the picture could be 
         "<shape type='sphere'><bsdf type='phong'><float name='shininess' value='20'/>"
         "<float name='diffuseCoef' value='0.5'/><integer name='exponent' value='3'/></bsdf></shape></scene>");
     CHECK(phong.warnings.size() == 2);
-    CHECK_THAT(messages(phong.warnings),
-               ContainsSubstring(
-                   "'shininess' is not read, neither here nor in the course's own code: exponent is 3") &&
-                   ContainsSubstring("diffuse-coefficients is 0 0 0"));
+    CHECK_THAT(
+        messages(phong.warnings),
+        ContainsSubstring("'shininess' is read neither here nor in the course's own code: exponent is 3") &&
+            ContainsSubstring("diffuse-coefficients is 0 0 0"));
     const LoadedScene map =
         load_text(start + "<emitter type='environment'><float name='rotate' value='90'/></emitter></scene>");
     CHECK(map.warnings.size() == 1);
@@ -236,7 +236,7 @@ TEST_CASE("a file that is missing or broken hides no other mistake", "[unit][loa
 {
     const TempFolder folder;
     folder.write("bad.obj", "f 1 2 3\n");
-    folder.write("bad.png", "no picture");
+    folder.write("bad.png", "no image");
     const std::string name = GENERATE(as<std::string>{}, "none", "bad");
     const auto path = folder.write(
         "main.xml",
@@ -309,7 +309,7 @@ TEST_CASE("a picture must fit into memory", "[unit][loader]")
     REQUIRE(available);
     if (*available > 370'000'000'000) return; // it does
     CHECK_THAT(errors(xml),
-               ContainsSubstring("scene.xml:1:108: error: a picture of 65535 x 65535 pixels needs") &&
+               ContainsSubstring("scene.xml:1:108: error: an image of 65535 x 65535 pixels needs") &&
                    ContainsSubstring("lower width and height"));
     LoadOptions options;
     options.kept_pixels = 100; // of a crop
@@ -324,7 +324,7 @@ TEST_CASE("scene files that cannot be read", "[unit][loader]")
     const TempFolder folder;
     CHECK_THROWS_WITH(load_scene(folder / "none.xml"), ContainsSubstring("there is no file '"));
     CHECK_THROWS_AS(load_scene(folder / "none.xml"), Error);
-    CHECK_THROWS_WITH(load_scene(folder.path()), ContainsSubstring("is a folder"));
+    CHECK_THROWS_WITH(load_scene(folder.path()), ContainsSubstring("is a directory"));
 }
 
 TEST_CASE("an integrator that cannot render the scene is an error at its place", "[unit][loader]")

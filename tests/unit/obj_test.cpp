@@ -131,7 +131,7 @@ TEST_CASE("the materials of an OBJ file are counted, not read", "[unit][obj]")
     CHECK(warning("f 1 2 3\nusemtl a\nf 1 3 4\n").empty());
     CHECK(warning("# usemtl a\nusemtlx b\nf 1 2 3\nusemtl a\nf 1 3 4\n").empty());
     CHECK(warning("usemtl a\nf 1 2 3\n usemtl\tb c \r\nf 1 3 4\nusemtl b c\nf 1 2 4\n") ==
-          "the faces name 2 materials (usemtl), which are not read: all have the one BSDF of the scene file");
+          "the faces name 2 materials (usemtl), which are not read: all use the BSDF of the scene file");
 }
 
 TEST_CASE("OBJ files with other line ends, with a byte order mark and without a last line end", "[unit][obj]")
@@ -237,10 +237,10 @@ TEST_CASE("triangles without area are left out of an OBJ file with a warning", "
 {
     const MeshData one = read_text(square + "f 1 2 3\nf 1 1 2\n");
     CHECK(one.triangles.size() == 1);
-    CHECK(one.warning == "1 triangle has no area and was left out");
+    CHECK(one.warning == "1 triangle has no area and was discarded");
     const MeshData two = read_text(square + "v 2 0 0\nf 1 2 3\nf 1 2 5\nf 3 3 3 3\n");
     CHECK(two.triangles.size() == 1);
-    CHECK(two.warning == "3 triangles have no area and were left out");
+    CHECK(two.warning == "3 triangles have no area and were discarded");
     CHECK_THAT(error_of(square + "f 1 1 2\n"), ContainsSubstring("no face has an area"));
     // a sliver has an area
     CHECK(read_text("v 0 0 0\nv 1e-15 0 0\nv 0 1e-15 0\nf 1 2 3\n").triangles.size() == 1);
@@ -267,7 +267,7 @@ TEST_CASE("texture coordinates of an OBJ file are all used or all left out", "[u
     const MeshData mesh = read_text(square + "vt 0 0\nf 1/1 2/1 3/1\nf 1 3 4\n");
     CHECK(mesh.uvs.empty());
     CHECK(mesh.positions.size() == 4);
-    CHECK(mesh.warning == "texture coordinates are left out, because some face corners have none");
+    CHECK(mesh.warning == "texture coordinates are ignored, because some face corners have none");
 }
 
 TEST_CASE("every mistake in an OBJ file is an error with its place", "[unit][obj]")
@@ -341,7 +341,7 @@ TEST_CASE("OBJ files that cannot be read are errors that name the file", "[unit]
 {
     const TempFolder folder;
     CHECK_THROWS_WITH(read_obj(folder.path() / "none.obj"), ContainsSubstring("none.obj': no such file"));
-    CHECK_THROWS_WITH(read_obj(folder.path()), ContainsSubstring("it is a folder"));
+    CHECK_THROWS_WITH(read_obj(folder.path()), ContainsSubstring("it is a directory"));
     CHECK_THAT(error_of(""), ContainsSubstring("the file is empty"));
     CHECK_THAT(error_of("\n"), ContainsSubstring("no faces"));
     CHECK_THAT(error_of(square), ContainsSubstring("no faces"));

@@ -112,15 +112,15 @@ TEST_CASE("verbs come first and take their own options", "[unit][options]")
     CHECK(options.settings.samples.seed == 6);
     CHECK(options.settings.scene.mirrored_view == true);
 
-    CHECK(usage_error("s.xml types") == "the verb 'types' must be the first word");
-    CHECK(usage_error("types a b") == "'b' is one word too many after 'a'");
+    CHECK(usage_error("s.xml types") == "the verb 'types' must come first");
+    CHECK(usage_error("types a b") == "unexpected argument 'b' after 'a'");
     CHECK(usage_error("info") == "no image given; 'renderer --help' shows how");
     CHECK(usage_error("replay s.xml --sample 5") == "replay needs --pixel X,Y");
     CHECK(usage_error("replay s.xml --pixel 3,4") == "replay needs --sample I");
     CHECK(usage_error("replay s.xml --pixel 3,4 --sample 5 --crop 1,1,1,1") ==
-          "option '--crop' does not go with replay");
-    CHECK(usage_error("s.xml --pixel 1,1") == "option '--pixel' does not go with rendering");
-    CHECK(usage_error("info a.exr --spp 4") == "option '--spp' does not go with info");
+          "option '--crop' cannot be used with replay");
+    CHECK(usage_error("s.xml --pixel 1,1") == "option '--pixel' cannot be used with rendering");
+    CHECK(usage_error("info a.exr --spp 4") == "option '--spp' cannot be used with info");
 
     const Options test = parse("test a.xml --seed 3 b.xml -t 2 --dialect epfl --json r.json --quiet c.xml");
     CHECK(test.verb == Verb::test);
@@ -133,8 +133,8 @@ TEST_CASE("verbs come first and take their own options", "[unit][options]")
     CHECK(parse("test ./test").subjects == std::vector<std::string>{"./test"});
     CHECK(parse("test -- -a.xml b.xml").subjects == std::vector<std::string>{"-a.xml", "b.xml"});
     CHECK(usage_error("test") == "no test file given; 'renderer --help' shows how");
-    CHECK(usage_error("test a.xml --spp 4") == "option '--spp' does not go with test");
-    CHECK(usage_error("a.xml test") == "the verb 'test' must be the first word");
+    CHECK(usage_error("test a.xml --spp 4") == "option '--spp' cannot be used with test");
+    CHECK(usage_error("a.xml test") == "the verb 'test' must come first");
 
     CHECK(closest_verb("tpyes") == "types");
     CHECK(closest_verb("cbox.xml").empty());
@@ -162,16 +162,17 @@ TEST_CASE("compare takes two images", "[unit][options]")
     CHECK(how.thresholds[2].metric == "psnr");
 
     CHECK(usage_error("compare a.exr") == "compare needs two images; 'renderer compare --help' shows how");
-    CHECK(usage_error("compare a.exr b.exr c.exr") == "'c.exr' is one word too many after 'b.exr'");
+    CHECK(usage_error("compare a.exr b.exr c.exr") == "unexpected argument 'c.exr' after 'b.exr'");
     CHECK(usage_error("compare a.exr b.exr --max rmse") == "--max must be name=value, not 'rmse'");
     CHECK(usage_error("compare a.exr b.exr --max rmse=x") ==
           "--max rmse must be a number from -1e+30 to 1e+30, not 'x'");
     CHECK(usage_error("compare a.exr b.exr --max rmse=1,rmse=2") == "--max rmse is given twice");
     CHECK(usage_error("compare a.exr b.exr --max ssim=1") ==
           "--max cannot be 'ssim'; known are mse, rmse, relmse, mae, max, psnr and flip");
-    CHECK(usage_error("compare a.exr b.exr --json d.png --diff d.png") == "'d.png' is to be written twice");
+    CHECK(usage_error("compare a.exr b.exr --json d.png --diff d.png") ==
+          "'d.png' is listed as an output twice");
     CHECK(usage_error("compare a.exr b.exr --exact C") == "--exact cannot be 'C'; known are A and B");
-    CHECK(usage_error("compare a.exr b.exr --spp 4") == "option '--spp' does not go with compare");
+    CHECK(usage_error("compare a.exr b.exr --spp 4") == "option '--spp' cannot be used with compare");
 }
 
 TEST_CASE("what replay needs is kept, quoted for a shell", "[unit][options]")
@@ -218,8 +219,8 @@ TEST_CASE("unknown options are named with a way out", "[unit][options]")
     CHECK(usage_error("s.xml --samples 4") == "unknown option '--samples'; did you mean '--spp'?");
     CHECK(usage_error("s.xml --nonsense") ==
           "unknown option '--nonsense'; 'renderer --help' lists the options");
-    CHECK(usage_error("s.xml --no-gui") == "there is no window: leave out '--no-gui'");
-    CHECK(usage_error("a.xml b.xml") == "'b.xml' is one word too many after 'a.xml'");
+    CHECK(usage_error("s.xml --no-gui") == "Plumb has no window; omit '--no-gui'");
+    CHECK(usage_error("a.xml b.xml") == "unexpected argument 'b.xml' after 'a.xml'");
     CHECK(usage_error("") == "no scene file given; 'renderer --help' shows how");
     CHECK(usage_error("--spp 4") == "no scene file given; 'renderer --help' shows how");
 }
@@ -234,11 +235,11 @@ TEST_CASE("values that are missing, doubled or unwanted are errors", "[unit][opt
           "option '--output' needs a value, and '--spp' looks like an option");
     CHECK(usage_error("s.xml --spp 4 --spp 5") == "option '--spp' is given twice");
     CHECK(usage_error("s.xml -D a=1 -D a=2") == "--define a is given twice");
-    CHECK(usage_error("s.xml -o a.exr -o a.exr") == "'a.exr' is to be written twice");
-    CHECK(usage_error("s.xml -o a.exr -o ./b/../a.exr") == "'a.exr' is to be written twice");
-    CHECK(usage_error("s.xml -o a.exr --json a.exr") == "'a.exr' is to be written twice");
+    CHECK(usage_error("s.xml -o a.exr -o a.exr") == "'a.exr' is listed as an output twice");
+    CHECK(usage_error("s.xml -o a.exr -o ./b/../a.exr") == "'a.exr' is listed as an output twice");
+    CHECK(usage_error("s.xml -o a.exr --json a.exr") == "'a.exr' is listed as an output twice");
     CHECK(usage_error({"s.xml", "-o", ""}) == "--output needs a file name");
-    CHECK(usage_error("s.xml --quiet --verbose") == "--quiet and --verbose exclude each other");
+    CHECK(usage_error("s.xml --quiet --verbose") == "--quiet and --verbose cannot be used together");
 }
 
 TEST_CASE("numbers use up their word and lie in their range", "[unit][options]")
@@ -301,5 +302,6 @@ TEST_CASE("every setting of a picture is an option of a rendering", "[unit][opti
         if (setting.effect == Effect::samples || setting.name == "spp") CHECK(row->goes_with(Verb::replay));
         // Only the command line names files.
         CHECK(setting.value.find("FILE") == setting.value.npos);
+        CHECK(setting.value.find("DIR") == setting.value.npos);
     }
 }

@@ -294,7 +294,6 @@ TEST_CASE("files are found beside the scene file", "[unit][params]")
     const std::string missing = (folder.path() / "sub" / "mesh.obj").string();
     REQUIRE(diagnostics.all().size() == 3);
     CHECK(diagnostics.all()[0].message == "filename names a file that does not exist: '" + missing + "'");
-    CHECK_THAT(diagnostics.all()[1].message, ContainsSubstring("filename is a folder, not a file: '"));
-    CHECK_THAT(diagnostics.all()[2].message,
-               ContainsSubstring("is a device, a pipe or the like, not a file"));
+    CHECK_THAT(diagnostics.all()[1].message, ContainsSubstring("filename is a directory, not a file: '"));
+    CHECK_THAT(diagnostics.all()[2].message, ContainsSubstring("is a device or a pipe, not a regular file"));
 }

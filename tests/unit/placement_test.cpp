@@ -50,6 +50,7 @@ std::string element(const std::string& tag, const std::string& inner)
         {"define", "name='x' value='1'"},
         {"render", "scene='part.xml'"},
         {"group", "name='x'"},
+        {"ref", "id='x'"},
     };
     const auto found = attributes.find(tag);
     const std::string rest = found == attributes.end() ? "" : " " + found->second;
@@ -66,7 +67,7 @@ std::string file_with(const std::string& parent, const std::string& inner)
         {"rotate", "transform"}, {"lookat", "transform"}, {"matrix", "transform"},    {"boolean", "mesh"},
         {"integer", "mesh"},     {"float", "mesh"},       {"string", "mesh"},         {"point", "mesh"},
         {"vector", "mesh"},      {"color", "mesh"},       {"include", "scene"},       {"default", "scene"},
-        {"define", "suite"},     {"render", "suite"},     {"group", "suite"},
+        {"define", "suite"},     {"render", "suite"},     {"group", "suite"},         {"ref", "mesh"},
     };
     const auto found = around.find(parent);
     const std::string text = element(parent, inner);
@@ -146,7 +147,7 @@ TEST_CASE("every element of a scene says where it belongs", "[unit][placement]")
                                               "texture", "rfilter", "integrator", "sampler"};
     std::vector<std::string> children = objects;
     children.insert(children.end(), operations.begin(), operations.end());
-    children.insert(children.end(), {"include", "default"});
+    children.insert(children.end(), {"include", "default", "ref"});
     std::vector<std::string> parents = children;
     parents.insert(parents.end(), {"scene", "transform"});
     parents.insert(parents.end(), values.begin(), values.end());
@@ -175,8 +176,9 @@ TEST_CASE("the messages of misplaced elements", "[unit][placement]")
     CHECK(rejection_of("scene", "rfilter") == "a <scene> cannot contain a <rfilter>; it belongs in <camera>");
     CHECK(rejection_of("integrator", "sampler") ==
           "an <integrator> cannot contain a <sampler>; it belongs in <scene>");
-    CHECK(rejection_of("scene", "bsdf") ==
-          "a <scene> cannot contain a <bsdf>; it belongs in <mesh> or <shape>");
+    CHECK(rejection_of("scene", "bsdf") == "");
+    CHECK(rejection_of("camera", "bsdf") ==
+          "a <camera> cannot contain a <bsdf>; it belongs in <scene>, <mesh>, <shape> or <bsdf>");
     CHECK(rejection_of("bsdf", "emitter") ==
           "a <bsdf> cannot contain an <emitter>; it belongs in <scene>, <mesh> or <shape>");
     CHECK(rejection_of("camera", "lookat") ==

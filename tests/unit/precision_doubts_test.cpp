@@ -48,10 +48,9 @@ std::string doubts(const std::string& scene)
 TEST_CASE("a scene far from the origin is doubtful", "[unit][check]")
 {
     for (const double offset : {0.0, 1.0, 10.0, 100.0}) CHECK(doubts(room(offset)).empty());
-    CHECK(doubts(room(1000.0)) ==
-          ": the scene is too far from the origin for 32-bit floats: at coordinates up to 1001 floats are "
-          "6.1e-05 apart, "
-          "1/32768 of its size of 2; move all of it, the camera too, by (-1000, -1000, -1000)\n");
+    CHECK(doubts(room(1000.0)) == ": the scene is too far from the origin for 32-bit floats: at coordinates "
+                                  "up to 1001 floats are 6.1e-05 apart, 1/32768 of its size of 2; move all "
+                                  "of it, including the camera, by (-1000, -1000, -1000)\n");
     CHECK_THAT(doubts(room(1e5)), ContainsSubstring("floats are 0.0078 apart, 1/256 of its size of 2; move"));
 }
 
@@ -77,8 +76,7 @@ TEST_CASE("a small lamp far away is doubtful only where floats cannot hold it", 
                            radius);
     };
     CHECK(doubts(room(0.0, ball(0.01))).empty());
-    CHECK_THAT(
-        doubts(room(0.0, ball(0.001))),
-        ContainsSubstring("mesh 'sphere' (scene.xml:1): it is too small for 32-bit floats where it is: at "
-                          "coordinates up to 100 floats are 7.6e-06 apart, 1/26"));
+    CHECK_THAT(doubts(room(0.0, ball(0.001))),
+               ContainsSubstring("mesh 'sphere' (scene.xml:1): it is too small for 32-bit floats at its "
+                                 "position: at coordinates up to 100 floats are 7.6e-06 apart, 1/26"));
 }

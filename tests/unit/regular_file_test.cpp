@@ -80,7 +80,7 @@ TEST_CASE("pipes and devices are not read, whoever names them", "[unit][files]")
     for (const std::filesystem::path& path :
          {pipe, std::filesystem::path("/dev/zero"), std::filesystem::path("/dev/full")})
         for (const std::string& text : complaints(path))
-            CHECK_THAT(text, ContainsSubstring("is a device, a pipe or the like, not a file"));
+            CHECK_THAT(text, ContainsSubstring("is a device or a pipe, not a regular file"));
 }
 
 TEST_CASE("what a Git LFS pointer stands for is missing, and is said to be", "[unit][files]")
@@ -149,6 +149,6 @@ TEST_CASE("a regular file is read as it was when it was opened", "[unit][files]"
     CHECK_THROWS_WITH(file.read(5, bytes), "cannot read '" + path.string() + "': the file ends early");
     CHECK_THROWS_WITH(RegularFile(folder / "none"),
                       "cannot read '" + (folder / "none").string() + "': no such file");
-    CHECK_THROWS_WITH(RegularFile(folder.path()), ContainsSubstring("it is a folder"));
+    CHECK_THROWS_WITH(RegularFile(folder.path()), ContainsSubstring("it is a directory"));
     CHECK(problem_of_file(folder / "none") == "no such file");
 }

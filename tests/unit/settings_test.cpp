@@ -26,6 +26,7 @@ const Examples render_examples = {
     {"seed", {"7", "18446744073709551615"}},
     {"size", {"65535x1", "640x480"}},
     {"crop", {"1,2,3,4"}},
+    {"aov", {"normal", "depth,albedo"}},
     {"integrator", {"path_mis"}},
     {"sampler", {"sobol"}},
     {"time", {"90", "0.1", "5400"}},
@@ -40,6 +41,7 @@ const Examples render_examples = {
 };
 const Examples compare_examples = {
     {"significance", {"0.05", "1e-09"}},
+    {"layer", {"normal"}},
     {"exact", {"A", "B"}},
     {"no-verdict", {"true"}},
     {"fail-percent", {"0.1", "100"}},
@@ -164,7 +166,7 @@ TEST_CASE("the options in a header of Plumb 0.1 are read", "[unit][settings]")
           std::map<std::string, std::string>{{"a", "b c"}, {"x", "'"}, {"y", "1\n2"}});
     CHECK(settings.scene.lenient);
 
-    const std::string unknown = "' is no option that changes a picture";
+    const std::string unknown = "' is not an option that changes the image";
     for (const char* word :
          {"other.xml", "-o", "--output", "--checkpoint", "--help", "--threads", "--spp=4", "--"})
         CHECK(problem_of_arguments(word + std::string(" 1")) ==
@@ -187,12 +189,12 @@ TEST_CASE("what is wrong with settings in a header is named", "[unit][settings]"
         CHECK(problem({{"plumb:settings", value}}) == "plumb:settings must be an integer from 2");
     CHECK(problem({{"plumb:set.seed", std::string("7")}}) == "plumb:set.seed needs plumb:settings");
     CHECK(problem({{"plumb:settings", 2}, {"plumb:arguments", std::string("--seed 7")}}) ==
-          "plumb:settings and plumb:arguments exclude each other");
+          "plumb:settings and plumb:arguments cannot be used together");
     CHECK(problem({{"plumb:arguments", 7}}) == "plumb:arguments must be a text");
     CHECK(problem({{"plumb:settings", 2}, {"plumb:set.seed", 7}}) == "plumb:set.seed must be a text");
     for (const char* name : {"output", "sede", "", "threads", "max"})
         CHECK(problem_of_setting(name, "1") ==
-              "plumb:set." + std::string(name) + " is no setting of a picture");
+              "plumb:set." + std::string(name) + " is not a setting of an image");
     CHECK(problem_of_setting("spp", "0") == "plumb:set.spp must be an integer from 1 to 67108864, not '0'");
     CHECK(problem_of_setting("seed", "1\n2") ==
           "plumb:set.seed must be an integer from 0 to 18446744073709551615, not '1\n2'");

@@ -69,7 +69,7 @@ std::string problem(const std::filesystem::path& path)
         read_state(path);
     } catch (const Error& error) {
         const std::string text = error.what();
-        const std::string start = "cannot go on from '" + path.string() + "': ";
+        const std::string start = "cannot resume from '" + path.string() + "': ";
         REQUIRE(text.substr(0, start.size()) == start);
         return text.substr(start.size());
     }
@@ -196,8 +196,8 @@ TEST_CASE("a damaged state file is found out", "[unit][state_file]")
     {
         Image image(4, 4);
         write_image(folder / "picture.exr", image);
-        CHECK(problem(folder / "picture.exr") == "it is no checkpoint and no part of a picture");
+        CHECK(problem(folder / "picture.exr") == "it is not a checkpoint or a partial render");
         CHECK(problem(folder / "none.exr") == "no such file");
-        CHECK(problem(folder.path()) == "it is a folder");
+        CHECK(problem(folder.path()) == "it is a directory");
     }
 }

@@ -176,9 +176,8 @@ TEST_CASE("what is wrong with a suite", "[unit][suite]")
         {"<suite><render scene='a.xml'><define name='x'/></render></suite>",
          R"(suite.xml:1:30: error: <define> needs an attribute 'value': <define value="..." .../>)"},
         {"<suite><render scene='a.xml' name='../a'/></suite>",
-         "suite.xml:1:36: error: '../a' cannot name a picture; names are those of a file in the output "
-         "folder, such as "
-         "box or hw4/box, without an ending"},
+         "suite.xml:1:36: error: '../a' cannot name an image; use the name of a file in the output directory "
+         "without its extension, such as box or hw4/box"},
         {"<suite><render scene='a.xml' spp=' , '/></suite>",
          "suite.xml:1:35: error: spp needs a number of samples per pixel"},
         {"<suite><render scene='$a.xml'/></suite>", "suite.xml:1:23: error: $a has no value; give it one "

@@ -42,7 +42,8 @@ std::string batch_markdown(const BatchRun& run)
 {
     std::string text =
         fmt::format("## {}\n\n{} in {}.\n\n", cell(run.suite), summary_text(run), duration_text(run.seconds));
-    text += "| picture | verdict | rmse | noise | seconds | why |\n|---|---|--:|--:|--:|---|\n";
+    text += "| image | verdict | rmse | noise | seconds | why |\n"
+            "|---|---|--:|--:|--:|---|\n";
     for (const BatchResult& result : run.results) {
         std::optional<double> rmse;
         if (result.comparison) rmse = result.comparison->metrics.rmse;

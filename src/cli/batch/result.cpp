@@ -73,10 +73,10 @@ std::string reason_text(const BatchResult& result)
                                       limit.metric == "psnr" ? "below" : "above", limit.limit));
     const NonFinite& broken = comparison.non_finite;
     if (broken.only_a + broken.only_b > 0)
-        reasons.push_back(fmt::format("{} pixels are not finite in one of the pictures, the first is {},{}",
+        reasons.push_back(fmt::format("{} pixels are not finite in one of the images, the first is {},{}",
                                       broken.only_a + broken.only_b, broken.first->x, broken.first->y));
     if (noise.finding == Finding::different && noise.p < result.how.significance)
-        reasons.push_back(fmt::format("it differs beyond the noise: p {:.2g}, {:.3g} % of the pixels",
+        reasons.push_back(fmt::format("the difference exceeds the noise: p {:.2g}, {:.3g} % of the pixels",
                                       noise.p,
                                       100.0 * static_cast<double>(noise.differing) /
                                           static_cast<double>(std::max<std::uint64_t>(noise.pixels, 1))));

@@ -40,7 +40,7 @@ LoadedScene load_scene_of(const SuiteEntry& entry, SceneRequest request)
     if (!fs::exists(entry.scene, ignored)) {
         const Diagnostic missing{
             Severity::error, entry.scene_at,
-            fmt::format("there is no scene file '{}'{}", entry.scene.string(), entry.scene_way_out)};
+            fmt::format("scene file '{}' does not exist{}", entry.scene.string(), entry.scene_way_out)};
         throw SceneError({missing});
     }
     request.quiet = true;
@@ -113,7 +113,7 @@ void compare_with_reference(const BatchJob& job, const BatchRequest& run, const 
     if (!fs::exists(entry.reference, ignored))
         throw SceneError(
             {Diagnostic{Severity::error, entry.reference_at,
-                        fmt::format("there is no reference '{}'; 'renderer batch {} --update' makes it",
+                        fmt::format("reference '{}' does not exist; 'renderer batch {} --update' makes it",
                                     entry.reference.string(), run.suite)}});
     const Image reference = read_image(entry.reference, true);
     result.how = job.compare;
@@ -154,7 +154,7 @@ std::string counted_title(const SuiteEntry& entry, const LoadedScene& scene, std
     if (!taken.insert(title).second)
         throw SceneError({Diagnostic{
             Severity::error, entry.at,
-            fmt::format("another entry writes '{}.exr', too; give one of them another name", title)}});
+            fmt::format("another entry also writes '{}.exr'; give one of them another name", title)}});
     return title;
 }
 
@@ -165,7 +165,7 @@ void make_folder(const fs::path& folder)
     std::error_code problem;
     if (!folder.empty()) fs::create_directories(folder, problem);
     if (problem)
-        throw Error(fmt::format("cannot make the folder '{}': {}", folder.string(), problem.message()));
+        throw Error(fmt::format("cannot create the directory '{}': {}", folder.string(), problem.message()));
 }
 
 BatchResult run_entry(const BatchJob& job, BatchContext& context)

@@ -23,8 +23,8 @@ void check_size(const PixelRect& data, std::size_t channels)
     constexpr double most_floats = 0x1p40;
     const double floats = double(data.width) * double(data.height) * double(channels);
     if (data.width < 1 || data.height < 1 || channels < 1 || floats > most_floats)
-        throw Error(fmt::format("a picture cannot have {} x {} pixels of {} channels", data.width,
-                                data.height, channels));
+        throw Error(fmt::format("an image cannot have {} x {} pixels of {} channels", data.width, data.height,
+                                channels));
 }
 
 class Buffer final : public PixelBuffer {
@@ -40,7 +40,7 @@ public:
         buffer_.geterror(); // else it would be printed
         if (!pixels_)
             throw Error(
-                fmt::format("not enough memory for a picture of {} x {} pixels", spec.width, spec.height));
+                fmt::format("not enough memory for an image of {} x {} pixels", spec.width, spec.height));
     }
     float* pixels() override { return pixels_; }
 
@@ -85,7 +85,7 @@ DecodedPicture OiioModule::read(const std::string& name) const
     const QuietStandardError quiet;
     const std::unique_ptr<OIIO::ImageInput> input = open_image(name);
     const OIIO::ImageSpec spec = input->spec();
-    if (spec.deep) throw Error("pictures with deep pixels are not supported");
+    if (spec.deep) throw Error("images with deep pixels are not supported");
     if (spec.depth > 1) throw Error("volumes are not supported");
 
     DecodedPicture picture;

@@ -29,8 +29,8 @@ PixelRect data_window_of(const OIIO::ImageSpec& spec)
     for (const int place : {spec.x, spec.y, spec.full_x, spec.full_y})
         if (place < -farthest || place > farthest)
             throw Error(fmt::format(
-                "its pixels are too far from the picture's corner: at {},{}, and the picture at {},{}",
-                spec.x, spec.y, spec.full_x, spec.full_y));
+                "its pixels are too far from the image's corner: at {},{}, and the image at {},{}", spec.x,
+                spec.y, spec.full_x, spec.full_y));
     for (const int size : {spec.width, spec.height, spec.full_width, spec.full_height})
         if (size > farthest)
             throw Error(fmt::format("it is too large: {} x {} pixels", spec.width, spec.height));
@@ -91,7 +91,7 @@ std::vector<unsigned char> encode_image(const std::string& name, const OIIO::Ima
     std::string reason = output->geterror();
     good = output->close() && good;
     reason += output->geterror(); // fetched in any case: what is not would be printed
-    if (!good) throw Error(reason.empty() ? "this format cannot hold the picture" : reason);
+    if (!good) throw Error(reason.empty() ? "this format cannot hold the image" : reason);
     return file;
 }
 

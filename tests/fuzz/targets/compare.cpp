@@ -54,7 +54,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
         const FlipMode mode = size % 2 == 0 ? FlipMode::hdr : FlipMode::ldr;
         compare_two(a, b, small ? mode : FlipMode::none);
         const Comparison same = compare(a, a, {.flip = FlipMode::none});
-        expect(same.outcome != CompareOutcome::differs, "a picture differs from itself");
+        expect(same.outcome != CompareOutcome::differs, "an image differs from itself");
     });
     return 0;
 }

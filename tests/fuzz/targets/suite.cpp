@@ -35,7 +35,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
         const Suite suite = load_suite(path, {}, settings);
         expect(!suite.entries.empty(), "a suite of nothing");
         for (const SuiteEntry& entry : suite.entries)
-            expect(!entry.title().empty(), "a picture without a name");
+            expect(!entry.title().empty(), "an image without a name");
     });
     allow_our_errors([&] {
         LoadOptions options;

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// AOVs (arbitrary output variables): what a camera sample sees first, as layers of a film. A new one is a row of the table in
+// aovs.cpp.
+
+#include "plumb/channel_set.h"
+
+#include <optional>
+#include <unordered_map>
+
+namespace plumb {
+
+class Camera;
+class Scene;
+class Shape;
+struct FirstSurfaces;
+struct SeenSurface;
+
+struct AovView;
+
+struct AovRow {
+    Layer layer;
+    std::string_view unit; // "scene units"; empty: none
+    std::string_view manual;
+    bool
+        behind; // there is also NAME_behind: of the first surface that is not a perfect mirror or clear glass
+    // One of them: the components, or the id, of a surface that is seen.
+    void (*measure)(const SeenSurface& seen, const AovView& view, float* values);
+    std::uint32_t (*identify)(const SeenSurface& seen, const AovView& view);
+    // Of an id: what the ids from 1 are.
+    std::vector<std::string> (*table)(const Scene& scene);
+};
+std::span<const AovRow> aov_rows();
+
+// The layers of these names, each once, in the table's order whatever the order of the names. Throws Error for an unknown name.
+ChannelSet layers_of(std::span<const std::string> names);
+
+// Of each layer of ids among the names: its name, and what the ids from 1 are.
+std::vector<std::pair<std::string, std::vector<std::string>>> id_tables(std::span<const std::string> names,
+                                                                        const Scene& scene);
+
+// What rows need besides the surface.
+struct AovView {
+    AovView(const Scene& scene, const Camera& camera);
+    double depth_along_view(const float* position) const; // in front of the camera
+    std::uint32_t object_of(const Shape* shape) const;    // from 1
+
+private:
+    double eye_[3];
+    double forward_[3]; // of unit length
+    std::unordered_map<const Shape*, std::uint32_t> objects_;
+};
+
+// Measures samples for a film with the layers of these names. Scene and camera must outlive it.
+class AovMeter {
+public:
+    AovMeter(std::span<const std::string> names, const Scene& scene, const Camera& camera);
+    bool empty() const { return wanted_.empty(); }
+
+    // Room for the values of one sample; each thread has its own.
+    struct Values {
+        std::vector<float> values;
+        std::vector<std::uint32_t> ids;
+    };
+    LayerSample measure(const FirstSurfaces& first, Values& room) const;
+
+private:
+    struct Wanted {
+        const AovRow* row;
+        bool behind;
+    };
+    std::vector<Wanted> wanted_;
+    std::optional<AovView> view_; // if anything is wanted
+};
+
+} // namespace plumb

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The named channels that a film has besides beauty: layers, each with its components. "albedo" with the components R, G and B
+// is in files as albedo.R, albedo.G and albedo.B.
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace plumb {
+
+// How the samples of a pixel become its value. All are exact, and independent of the order of the samples.
+enum class LayerKind {
+    mean, // over all samples, with the filter's weights: what sees nothing counts as 0
+    mean_of_hits, // over the samples that have a value, without weights: never outside the range of the values; 0 if none has
+    id, // of the pixel's first sample, by its index: 0 or an index into a table, from 1
+};
+
+struct Layer {
+    std::string name;
+    std::vector<std::string> components; // one of an id
+    LayerKind kind = LayerKind::mean;
+    friend bool operator==(const Layer&, const Layer&) = default;
+
+    std::string channel(std::size_t component) const { return name + "." + components[component]; }
+};
+
+inline constexpr std::size_t max_layers = 64;
+
+// Two films with equal ones have the same channels and may be added. Empty: beauty only.
+using ChannelSet = std::vector<Layer>;
+
+// "albedo:R,G,B:mean normal:X,Y,Z:hits object:id:id"; of nothing "none". And back, which throws Error for any other text.
+std::string to_text(const ChannelSet& layers);
+ChannelSet channel_set_from_text(std::string_view text);
+
+// For people: "albedo, normal"; of nothing "none".
+std::string layer_names(const ChannelSet& layers);
+
+// What one sample has for the layers, in their order: a float for each component of those that are no ids, and an integer for
+// each id.
+struct LayerSample {
+    std::span<const float> values;
+    std::span<const std::uint32_t> ids;
+    std::uint64_t hits = 0; // a bit for each layer, the first is 1: whether it has a value
+};
+
+} // namespace plumb

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+
+#include "plumb/aovs.h"
+#include "plumb/camera.h"
+#include "plumb/error.h"
+#include "plumb/tracer.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace plumb {
+namespace {
+
+constexpr const char* behind_suffix = "_behind";
+
+struct NamedRow {
+    const AovRow* row;
+    bool behind;
+
+    std::string name() const { return row->layer.name + (behind ? behind_suffix : ""); }
+};
+
+std::vector<NamedRow> all_rows()
+{
+    std::vector<NamedRow> rows;
+    for (const AovRow& row : aov_rows()) {
+        rows.push_back({&row, false});
+        if (row.behind) rows.push_back({&row, true});
+    }
+    return rows;
+}
+
+std::vector<NamedRow> rows_of(std::span<const std::string> names)
+{
+    if (names.empty()) return {};
+    std::vector<NamedRow> rows = all_rows();
+    for (const std::string& name : names) {
+        if (std::any_of(rows.begin(), rows.end(), [&](const NamedRow& row) { return row.name() == name; }))
+            continue;
+        std::vector<std::string> known;
+        for (const NamedRow& row : rows) known.push_back(row.name());
+        throw Error(fmt::format("unknown AOV '{}'; known are {}", name, fmt::join(known, ", ")));
+    }
+    std::erase_if(rows, [&](const NamedRow& row) {
+        return std::find(names.begin(), names.end(), row.name()) == names.end();
+    });
+    return rows;
+}
+
+void put(double* out, const Vec3d& v)
+{
+    out[0] = v.x;
+    out[1] = v.y;
+    out[2] = v.z;
+}
+
+} // namespace
+
+ChannelSet layers_of(std::span<const std::string> names)
+{
+    ChannelSet layers;
+    for (const NamedRow& named : rows_of(names)) {
+        layers.push_back(named.row->layer);
+        layers.back().name = named.name();
+    }
+    return layers;
+}
+
+std::vector<std::pair<std::string, std::vector<std::string>>> id_tables(std::span<const std::string> names,
+                                                                        const Scene& scene)
+{
+    std::vector<std::pair<std::string, std::vector<std::string>>> tables;
+    for (const NamedRow& named : rows_of(names)) {
+        if (!named.row->table) continue;
+        const std::string& name = named.row->layer.name; // of both of its layers
+        if (tables.empty() || tables.back().first != name) tables.emplace_back(name, named.row->table(scene));
+    }
+    return tables;
+}
+
+AovView::AovView(const Scene& scene, const Camera& camera)
+{
+    put(eye_, camera.to_world().point(Vec3d(0.0, 0.0, 0.0)));
+    put(forward_, normalize(camera.to_world().vector(Vec3d(0.0, 0.0, 1.0))));
+    for (const SceneObject& object : scene.objects())
+        objects_.emplace(object.shape.get(), static_cast<std::uint32_t>(objects_.size() + 1));
+}
+
+double AovView::depth_along_view(const float* position) const
+{
+    double depth = 0.0;
+    for (int i = 0; i < 3; ++i) depth += (static_cast<double>(position[i]) - eye_[i]) * forward_[i];
+    return depth;
+}
+
+std::uint32_t AovView::object_of(const Shape* shape) const
+{
+    const auto found = objects_.find(shape);
+    return found == objects_.end() ? 0 : found->second;
+}
+
+AovMeter::AovMeter(std::span<const std::string> names, const Scene& scene, const Camera& camera)
+{
+    for (const NamedRow& named : rows_of(names)) wanted_.push_back({named.row, named.behind});
+    if (!wanted_.empty()) view_.emplace(scene, camera);
+}
+
+LayerSample AovMeter::measure(const FirstSurfaces& first, Values& room) const
+{
+    room.values.clear();
+    room.ids.clear();
+    std::uint64_t hits = 0;
+    std::uint64_t bit = 1;
+    for (const auto& [row, behind] : wanted_) {
+        const std::optional<SeenSurface>& seen = behind ? first.not_delta : first.surface;
+        if (seen) hits |= bit;
+        bit <<= 1;
+        if (row->identify) {
+            room.ids.push_back(seen ? row->identify(*seen, *view_) : 0);
+            continue;
+        }
+        const std::size_t at = room.values.size();
+        room.values.resize(at + row->layer.components.size(), 0.f);
+        if (seen) row->measure(*seen, *view_, &room.values[at]);
+    }
+    return {room.values, room.ids, hits};
+}
+
+} // namespace plumb

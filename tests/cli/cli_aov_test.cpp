@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+
+// --aov and compare --layer, with the real program: layers in files, checkpoints, parts and merged pictures.
+
+#include "cli/picture_header.h"
+#include "cli/small_scene.h"
+#include "plumb/aovs.h"
+#include "support/catch.h"
+#include "support/random.h"
+
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+using namespace plumb;
+
+namespace {
+
+std::string joined(const Names& names)
+{
+    std::string text;
+    for (const std::string& name : names) text += (text.empty() ? "" : ",") + name;
+    return text;
+}
+
+Names all_aovs()
+{
+    Names names;
+    for (const AovRow& row : aov_rows()) {
+        names.push_back(row.layer.name);
+        if (row.behind) names.push_back(row.layer.name + "_behind");
+    }
+    return names;
+}
+
+// Some of them, at least one, in any order.
+Names random_aovs(test::TestRandom& random)
+{
+    Names names = all_aovs();
+    for (std::size_t i = names.size(); i-- > 1;)
+        std::swap(names[i], names[static_cast<std::size_t>(random.next_double() * double(i + 1))]);
+    names.resize(1 + static_cast<std::size_t>(random.next_double() * double(names.size() - 1)));
+    return names;
+}
+
+bool has(const Image& image, const std::string& channel)
+{
+    const Names& names = image.channel_names();
+    return std::find(names.begin(), names.end(), channel) != names.end();
+}
+
+} // namespace
+
+TEST_CASE("a picture with AOVs has layers, and the same beauty", "[cli][aov]")
+{
+    const SceneFolder folder;
+    REQUIRE(folder.run({"scene.xml", "-o", "plain.exr", "-o", "plain.png"}).exit_code == 0);
+    REQUIRE(folder.run({"scene.xml", "-o", "a.exr", "-o", "a.png", "--aov", "normal,albedo,depth,object"})
+                .exit_code == 0);
+    const Image plain = read_image(folder / "plain.exr", false);
+    const Image image = read_image(folder / "a.exr", false);
+    for (const char* channel : {"albedo.R", "albedo.G", "albedo.B", "normal.X", "normal.Y", "normal.Z",
+                                "depth.Z", "object.id", "variance.R", "contributing"})
+        CHECK(has(image, channel));
+    CHECK(image.channel_names().size() == plain.channel_names().size() + 8);
+    for (int y = 0; y < 36; ++y)
+        for (int x = 0; x < 48; ++x) REQUIRE(image.color(x, y) == plain.color(x, y));
+    CHECK(read_image(folder / "a.png", false).channel_count() == 3);
+
+    const PictureHeader header = plumb::header(folder / "a.exr");
+    CHECK(text(header, "plumb:set.aov") == "normal,albedo,depth,object");
+    CHECK(text(header, "plumb:ids.object") == "1 shape 'rectangle' (scene.xml:11)\n"
+                                              "2 shape 'sphere' (scene.xml:15)\n"
+                                              "3 shape 'sphere' (scene.xml:19)\n"
+                                              "4 shape 'sphere' (scene.xml:23)");
+    CHECK(text(header, "plumb:inputHash") == text(plumb::header(folder / "plain.exr"), "plumb:inputHash"));
+    CHECK_THAT(folder.run({"info", "a.exr"}).out, ContainsSubstring(" normal.X normal.Y normal.Z"));
+    CHECK_THAT(folder.run({"info", "a.exr"}).out, ContainsSubstring("  plumb:ids.object       1 shape"));
+
+    REQUIRE(folder.run({"rerun", "a.exr", "-o", "again.exr"}).exit_code == 0);
+    CHECK(read_bytes(folder / "again.exr") == read_bytes(folder / "a.exr"));
+}
+
+TEST_CASE("an AOV that nobody knows is wrong usage", "[cli][aov]")
+{
+    const SceneFolder folder;
+    const RunResult result = folder.run({"scene.xml", "-o", "a.exr", "--aov", "normal,color"});
+    CHECK(result.exit_code == 2);
+    CHECK_THAT(result.err, ContainsSubstring("error: --aov: unknown AOV 'color'; known are albedo, "));
+}
+
+TEST_CASE("checkpoints and parts carry any set of layers, and merge in any order", "[cli][aov]")
+{
+    test::TestRandom random(21);
+    for (int round = 0; round < 4; ++round) {
+        const SceneFolder folder;
+        const std::string aovs = joined(random_aovs(random));
+        const std::string by = random.next_double() < 0.5 ? "tiles" : "samples";
+        CAPTURE(aovs, by);
+        REQUIRE(folder.run({"scene.xml", "-o", "whole.exr", "--spp", "12", "--aov", aovs}).exit_code == 0);
+        const std::string whole = read_bytes(folder / "whole.exr");
+
+        const Names checkpoint = {"--checkpoint", "c.exr", "--aov", aovs};
+        Names first = {"scene.xml", "-o", "a.exr", "--spp", "5"};
+        first.insert(first.end(), checkpoint.begin(), checkpoint.end());
+        REQUIRE(folder.run(first).exit_code == 0);
+        Names second = {"scene.xml", "-o", "a.exr", "--spp", "12", "--resume"};
+        second.insert(second.end(), checkpoint.begin(), checkpoint.end());
+        REQUIRE(folder.run(second).exit_code == 0);
+        CHECK(read_bytes(folder / "a.exr") == whole);
+
+        Names parts;
+        for (int part = 1; part <= 3; ++part) {
+            parts.push_back(fmt::format("p{}.exr", part));
+            REQUIRE(folder
+                        .run({"scene.xml", "-o", parts.back(), "--spp", "12", "--aov", aovs, "--part",
+                              fmt::format("{}/3", part), "--part-by", by})
+                        .exit_code == 0);
+        }
+        for (const auto& order : {std::array{0, 1, 2}, std::array{2, 0, 1}}) {
+            REQUIRE(folder
+                        .run({"merge", parts[static_cast<std::size_t>(order[0])],
+                              parts[static_cast<std::size_t>(order[1])],
+                              parts[static_cast<std::size_t>(order[2])], "-o", "merged.exr"})
+                        .exit_code == 0);
+            CHECK(read_bytes(folder / "merged.exr") == whole);
+        }
+    }
+}
+
+TEST_CASE("layers that are not those of the checkpoint or of another part are refused", "[cli][aov]")
+{
+    const SceneFolder folder;
+    REQUIRE(folder.run({"scene.xml", "-o", "a.exr", "--checkpoint", "c.exr", "--aov", "normal,depth"})
+                .exit_code == 0);
+    const auto refusal = [&](const Names& more) {
+        Names words = {"scene.xml", "-o", "b.exr", "--checkpoint", "c.exr", "--resume", "--quiet"};
+        words.insert(words.end(), more.begin(), more.end());
+        const RunResult result = folder.run(words);
+        CHECK(result.exit_code == 1);
+        return result.err;
+    };
+    CHECK(refusal({}) ==
+          "error: cannot resume from 'c.exr': it has the layers normal, depth, and --aov asks for none\n");
+    CHECK(refusal({"--aov", "albedo"}) ==
+          "error: cannot resume from 'c.exr': it has the layers normal, depth, and --aov asks for albedo\n");
+
+    REQUIRE(folder.run({"scene.xml", "-o", "p1.exr", "--part", "1/2", "--aov", "uv"}).exit_code == 0);
+    REQUIRE(folder.run({"scene.xml", "-o", "p2.exr", "--part", "2/2"}).exit_code == 0);
+    const RunResult merged = folder.run({"merge", "p1.exr", "p2.exr", "-o", "m.exr"});
+    CHECK(merged.exit_code == 1);
+    CHECK(merged.err ==
+          "error: 'p1.exr' and 'p2.exr' are not parts of one image: one has the layers uv, the other "
+          "none\n");
+}
+
+TEST_CASE("compare --layer compares a layer", "[cli][aov][compare]")
+{
+    const SceneFolder folder;
+    REQUIRE(folder.run({"scene.xml", "-o", "a.exr", "--aov", "albedo,depth,uv"}).exit_code == 0);
+    REQUIRE(folder.run({"scene.xml", "-o", "b.exr", "--aov", "albedo,depth,uv", "--seed", "1"}).exit_code ==
+            0);
+    CHECK(folder.run({"compare", "a.exr", "a.exr", "--layer", "depth"}).exit_code == 0);
+    const RunResult depth = folder.run({"compare", "a.exr", "b.exr", "--layer", "depth", "--max", "rmse=10"});
+    CHECK(depth.exit_code == 0);
+    CHECK_THAT(depth.out, ContainsSubstring("channel depth.Z\n"));
+    CHECK(folder.run({"compare", "a.exr", "b.exr", "--layer", "uv", "--max", "rmse=1e-9"}).exit_code == 3);
+    CHECK(folder.run({"compare", "a.exr", "b.exr", "--layer", "albedo", "--diff", "d.png", "--max", "rmse=1"})
+              .exit_code == 0);
+    const RunResult none = folder.run({"compare", "a.exr", "b.exr", "--layer", "normal"});
+    CHECK(none.exit_code == 1);
+    CHECK(none.err == "error: A has no layer 'normal'; it has albedo, depth, uv, variance\n");
+}
