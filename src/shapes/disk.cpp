@@ -51,6 +51,7 @@ public:
         const Vec3d crossed = cross(axis_x_, axis_y_);
         const double size = length(crossed);
         area_ = static_cast<float>(pi_d * size);
+        for (int i = 0; i < 3; ++i) reach_[i] = std::sqrt(sqr(axis_x_[i]) + sqr(axis_y_[i]));
         const Box3f box = bounds();
         if (!(area_ > 0.f) || !std::isfinite(1.f / area_) || !std::isfinite(area_) || !is_finite(box.min) ||
             !is_finite(box.max)) {
@@ -110,16 +111,7 @@ public:
 
     float area() const override { return area_; }
 
-    Box3f bounds() const override
-    {
-        Box3f box;
-        for (int i = 0; i < 3; ++i) {
-            const double reach = std::sqrt(sqr(axis_x_[i]) + sqr(axis_y_[i]));
-            box.min[i] = static_cast<float>(center_[i] - reach);
-            box.max[i] = static_cast<float>(center_[i] + reach);
-        }
-        return box;
-    }
+    Box3f bounds() const override { return {Vec3f(center_ - reach_), Vec3f(center_ + reach_)}; }
 
     DirectionCone normals() const override { return cone_about(Vec3d(normal_), 1.0); }
 
@@ -157,14 +149,16 @@ private:
         return Vec3f(center_ + axis_x_ * (place.x * scale) + axis_y_ * (place.y * scale));
     }
 
-    // The disk is met in double precision, so that the rounding of the point counts, and hardly anything else.
+    // The disk is met in double precision, so that the rounding of the point counts; and for rays nearly in the plane that
+    // of the normal and of its product with their direction, which say on which side a ray leaves: three roundings of each
+    // term, over as much as the whole disk.
     float clearance_at(const Vec3f& p) const
     {
-        constexpr double of_doubles = 0x1p-50;
-        const auto size = [&](int i) {
-            return (std::abs(center_[i]) + std::abs(axis_x_[i]) + std::abs(axis_y_[i])) * of_doubles;
-        };
-        const Vec3f error = abs(p) * unit_roundoff + Vec3f(Vec3d(size(0), size(1), size(2)));
+        constexpr double of_doubles = 0x1p-50, of_sides = 2.0 * 4.0 * unit_roundoff;
+        Vec3f error;
+        for (int i = 0; i < 3; ++i)
+            error[i] = static_cast<float>(std::abs(center_[i]) * of_doubles + reach_[i] * of_sides) +
+                       std::abs(p[i]) * unit_roundoff;
         return clearance(error, abs(p), normal_);
     }
 
@@ -180,6 +174,7 @@ private:
     Vec3d center_{0.0};
     Vec3d axis_x_{1.0, 0.0, 0.0}; // from the centre to the rim, at v = 0 and v = 1/4
     Vec3d axis_y_{0.0, 1.0, 0.0};
+    Vec3d reach_{1.0, 1.0, 0.0}; // along each axis, from the centre
     Vec3d plane_{0.0, 0.0, 1.0}; // axis_x_ x axis_y_, unit length
     Vec3d to_x_{1.0, 0.0, 0.0};  // the place from the point
     Vec3d to_y_{0.0, 1.0, 0.0};

@@ -45,7 +45,7 @@ TEST_CASE("too few samples decide nothing", "[cli][agree]")
     const SceneFolder folder;
     const RunResult run = folder.run({"agree", "scene.xml", "--spp", "2", "--size", "12x9"});
     CHECK(run.exit_code == 4);
-    CHECK_THAT(run.out, ContainsSubstring("undecided; what is wrong in all of them alike"));
+    CHECK_THAT(run.out, ContainsSubstring("undecided; errors shared by all estimators"));
     CHECK_THAT(run.out, ContainsSubstring("\nmore samples may decide it\n"));
 }
 

@@ -70,10 +70,10 @@ TEST_CASE("a picture with AOVs has layers, and the same beauty", "[cli][aov]")
 
     const PictureHeader header = plumb::header(folder / "a.exr");
     CHECK(text(header, "plumb:set.aov") == "normal,albedo,depth,object");
-    CHECK(text(header, "plumb:ids.object") == "1 shape 'rectangle' (scene.xml:11)\n"
-                                              "2 shape 'sphere' (scene.xml:15)\n"
-                                              "3 shape 'sphere' (scene.xml:19)\n"
-                                              "4 shape 'sphere' (scene.xml:23)");
+    CHECK(text(header, "plumb:ids.object") == "1 shape 'rectangle' (scene.xml:10)\n"
+                                              "2 shape 'sphere' (scene.xml:14)\n"
+                                              "3 shape 'sphere' (scene.xml:18)\n"
+                                              "4 shape 'sphere' (scene.xml:22)");
     CHECK(text(header, "plumb:inputHash") == text(plumb::header(folder / "plain.exr"), "plumb:inputHash"));
     CHECK_THAT(folder.run({"info", "a.exr"}).out, ContainsSubstring(" normal.X normal.Y normal.Z"));
     CHECK_THAT(folder.run({"info", "a.exr"}).out, ContainsSubstring("  plumb:ids.object       1 shape"));

@@ -169,7 +169,7 @@ TEST_CASE("a sun that lights nothing is warned of, and a black picture doubted",
                ContainsSubstring("although there is a light, all 4096 paths through the image are black"));
     const RunResult rendered = run_renderer({"a.xml", "-o", "a.exr", "--spp", "1"}, folder.path());
     CHECK(rendered.exit_code == 0);
-    CHECK_THAT(rendered.err, ContainsSubstring("warning: this light meets the front of no surface") &&
+    CHECK_THAT(rendered.err, ContainsSubstring("warning: this light reaches the front of no surface") &&
                                  ContainsSubstring("warning: the image is black, although there is a light; "
                                                    "'renderer check a.xml' may say why"));
     // For mcgill it comes from there.

@@ -224,7 +224,7 @@ TEST_CASE("parts make the picture, whatever the order and the grouping", "[cli][
             return result.err;
         };
         CHECK_THAT(refusal({"merge", "p1.exr", "p13.exr", "p2.exr", "-o", "x.exr"}),
-                   ContainsSubstring("error: 'p1.exr' and 'p13.exr' both have "));
+                   ContainsSubstring("error: 'p1.exr' and 'p13.exr' both contain "));
         CHECK_THAT(refusal({"merge", "p1.exr", "p13.exr", "-o", "x.exr"}),
                    ContainsSubstring(" samples, the first "
                                      "of them at 0,0,"));

@@ -76,9 +76,10 @@ TEST_CASE("one file under two names is found before the rendering", "[cli][files
     const SceneFolder folder;
     fs::create_symlink("a.exr", folder / "b.exr");
     check_refused(folder, {"-o", "a.exr", "-o", "b.exr"}, "'b.exr' is listed as an output twice", 2);
-    check_refused(folder, {"-o", "c.previous.exr", "--checkpoint", "c.exr"}, "is to be written twice", 2);
+    check_refused(folder, {"-o", "c.previous.exr", "--checkpoint", "c.exr"}, "is listed as an output twice",
+                  2);
     fs::create_symlink("c.previous.exr", folder / "d.exr");
-    check_refused(folder, {"-o", "d.exr", "--checkpoint", "c.exr"}, "is to be written twice", 2);
+    check_refused(folder, {"-o", "d.exr", "--checkpoint", "c.exr"}, "is listed as an output twice", 2);
 }
 
 TEST_CASE("a link to nothing is written through", "[cli][files]")
@@ -107,7 +108,7 @@ TEST_CASE("the name of the previous generation takes no file of others", "[cli][
     const std::string scene = read_bytes(folder / "scene.xml");
     SECTION("when a rendering begins")
     {
-        check_refused(folder, {"-o", "a.exr", "--checkpoint", "c.exr"}, "'c.previous.exr' is there already");
+        check_refused(folder, {"-o", "a.exr", "--checkpoint", "c.exr"}, "'c.previous.exr' already exists");
     }
     SECTION("when one is gone on with")
     {
@@ -116,7 +117,7 @@ TEST_CASE("the name of the previous generation takes no file of others", "[cli][
                     .exit_code == 0);
         fs::copy_file(folder / "scene.xml", folder / "c.previous.exr");
         check_refused(folder, {"-o", "a.exr", "--checkpoint", "c.exr", "--resume"},
-                      "the previous state is kept as 'c.previous.exr', and that is another file");
+                      "the previous state is kept as 'c.previous.exr', which is another file");
         // Or it is that of another rendering.
         fs::remove(folder / "c.previous.exr");
         REQUIRE(folder
@@ -124,7 +125,7 @@ TEST_CASE("the name of the previous generation takes no file of others", "[cli][
                           "c.previous.exr", "--quiet"})
                     .exit_code == 0);
         check_refused(folder, {"-o", "a.exr", "--checkpoint", "c.exr", "--resume"},
-                      "and that is the state of another rendering");
+                      "which is the state of another rendering");
         return;
     }
     SECTION("when it is a scene")
@@ -137,7 +138,7 @@ TEST_CASE("the name of the previous generation takes no file of others", "[cli][
         REQUIRE(folder.run({"scene.xml", "--part", "1/1", "-o", "p.exr", "--quiet"}).exit_code == 0);
         const auto run = folder.run({"merge", "p.exr", "--checkpoint", "c.exr"});
         CHECK(run.exit_code == 1);
-        CHECK_THAT(run.err, ContainsSubstring("and that is another file"));
+        CHECK_THAT(run.err, ContainsSubstring("which is another file"));
     }
     CHECK(read_bytes(folder / "c.previous.exr") == scene);
 }
@@ -148,10 +149,10 @@ TEST_CASE("pipes in the way hold nobody up", "[cli][files]")
     for (const char* name : {".a.exr.part0", "c.previous.exr"})
         REQUIRE(mkfifo((folder / name).c_str(), 0600) == 0);
     CHECK(folder.run({"scene.xml", "-o", "a.exr", "--quiet"}).exit_code == 0);
-    check_refused(folder, {"-o", "b.exr", "--checkpoint", "c.exr"}, "'c.previous.exr' is there already");
+    check_refused(folder, {"-o", "b.exr", "--checkpoint", "c.exr"}, "'c.previous.exr' already exists");
     const RunResult resumed = run_long(folder, {"-o", "b.exr", "--checkpoint", "c.exr", "--resume"});
     CHECK(resumed.exit_code == 1);
-    CHECK_THAT(resumed.err, ContainsSubstring("it is a device, a pipe or the like"));
+    CHECK_THAT(resumed.err, ContainsSubstring("it is a device or a pipe, not a regular file"));
 }
 
 TEST_CASE("names of files steer no terminal, in whatever message or table they are", "[cli][files]")
@@ -172,7 +173,7 @@ TEST_CASE("names of files steer no terminal, in whatever message or table they a
     REQUIRE(folder.run({"scene.xml", "-o", "a.exr", "--quiet"}).exit_code == 0);
     const std::vector<Names> runs = {
         {scene, "-o", evil + ".exr", "--checkpoint", evil + ".state.exr"},
-        {scene, "-o", evil + ".exr", "--checkpoint", evil + ".state.exr"}, // is there already
+        {scene, "-o", evil + ".exr", "--checkpoint", evil + ".state.exr"}, // already exists
         {scene, "-o", evil + ".exr", "--checkpoint", evil + ".state.exr", "--resume"},
         {scene, "-o", "no/" + evil + ".exr"},
         {scene, "-o", "a" + evil},

@@ -108,7 +108,7 @@ void check_outcome(const TempFolder& folder, const Outcome& outcome, const std::
     std::erase(shown, '\n');
     CHECK(visible_text(shown) == shown);
     if (outcome.code == 1)
-        CHECK((shown.find(file) != shown.npos || shown.find("the scene is not what it was") != shown.npos));
+        CHECK((shown.find(file) != shown.npos || shown.find("the scene has changed") != shown.npos));
     CHECK_FALSE(std::filesystem::exists(folder / "stolen.exr"));
     CHECK_FALSE(std::filesystem::exists("stolen.exr"));
 }

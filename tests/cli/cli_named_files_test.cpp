@@ -102,17 +102,18 @@ TEST_CASE("a file of that name in other letters, or elsewhere, is suggested", "[
 {
     for (const Parameter& parameter : parameters) {
         const std::string file = parameter.file.substr(parameter.file.find('/') + 1);
-        const std::string what =
-            parameter.name.empty() ? "there is no file" : "names a file that does not exist:";
-        const std::string start =
-            "error: " + (parameter.name.empty() ? "" : parameter.name + " ") + what + " '";
+        const bool is_include = parameter.name.empty();
+        const std::string start = is_include
+                                      ? "error: file '"
+                                      : "error: " + parameter.name + " names a file that does not exist: '";
+        const std::string end = is_include ? "' does not exist" : "'";
         const auto suggests = [&](const Files& files, const std::string& name,
                                   const std::string& suggestion) {
             CAPTURE(name);
             const RunResult result = files.check(parameter, name);
             CHECK(result.exit_code == 1);
             CHECK_THAT(result.err, ContainsSubstring(start + "scenes/") || ContainsSubstring(start + "/"));
-            CHECK_THAT(result.err, ContainsSubstring("'; did you mean '" + suggestion + "'?\n"));
+            CHECK_THAT(result.err, ContainsSubstring(end + "; did you mean '" + suggestion + "'?\n"));
             CHECK_THAT(files.check(parameter, suggestion).out, ContainsSubstring("memory: "));
         };
         const Files beside("scenes/"), here("");
@@ -170,5 +171,5 @@ TEST_CASE("a picture whose mesh lay in the working folder is rendered again, or 
     const RunResult changed =
         run_renderer({"rerun", "../a.exr", "-o", "c.exr", "--scene", "../scenes/a.xml"}, files / "other");
     CHECK(changed.exit_code == 1);
-    CHECK_THAT(changed.err, ContainsSubstring("the scene is not what it was"));
+    CHECK_THAT(changed.err, ContainsSubstring("the scene has changed"));
 }

@@ -51,7 +51,8 @@ TEST_CASE("a checkpoint is for one program", "[cli][checkpoint]")
         const std::string changed = GENERATE("renderer", "libplumb_images.so");
         const RunResult result = run(copy_program(elsewhere, changed), more, folder);
         CHECK(result.exit_code == 1);
-        CHECK_THAT(result.err, ContainsSubstring("error: cannot resume from 'c.exr': the program was "));
+        CHECK_THAT(result.err,
+                   ContainsSubstring("error: cannot resume from 'c.exr': the hash of the program was "));
         CHECK(result.err.find(" and is ") != std::string::npos);
         CHECK(result.err.find("Plumb") == std::string::npos); // the version is the same
         CHECK(read_bytes(folder / "c.exr") == before);
@@ -70,7 +71,8 @@ TEST_CASE("parts of two programs are not merged", "[cli][merge]")
     const RunResult result = folder.run({"merge", "p1.exr", "p2.exr", "-o", "a.exr"});
     CHECK(result.exit_code == (same ? 0 : 1));
     if (same) return;
-    CHECK_THAT(result.err, ContainsSubstring(
-                               "error: 'p1.exr' and 'p2.exr' are not parts of one image: the program was "));
+    CHECK_THAT(result.err,
+               ContainsSubstring(
+                   "error: 'p1.exr' and 'p2.exr' are not parts of one image: the hash of the program was "));
     CHECK_FALSE(std::filesystem::exists(folder / "a.exr"));
 }

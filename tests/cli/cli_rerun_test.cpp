@@ -131,8 +131,8 @@ TEST_CASE("rerun names what has changed", "[cli][rerun]")
     folder.write("moved/scene.xml", scene_with_mesh());
     folder.write("moved/triangle.obj", triangle);
     std::filesystem::remove(folder / "scene.xml");
-    CHECK(complaint() == "error: scene file 'scene.xml' does not exist, neither here nor beside 'a.exr'; say "
-                         "where it is with --scene\n");
+    CHECK(complaint() == "error: scene file 'scene.xml' exists neither here nor beside 'a.exr'; pass its "
+                         "path with --scene\n");
     REQUIRE(folder.run({"rerun", "a.exr", "-o", "b.exr", "--scene", "moved/scene.xml"}).exit_code == 0);
     CHECK(read_bytes(folder / "a.exr") == read_bytes(folder / "b.exr"));
 }

@@ -106,7 +106,7 @@ TEST_CASE("pictures that cannot be compared say why", "[unit][compare]")
     CompareSettings options;
     options.thresholds = {{"ssim", 1.0}};
     CHECK(problem(grey(1, 1, 0.f), grey(1, 1, 0.f), options) ==
-          "there is no metric 'ssim'; there are mse, rmse, relmse, mae, max, psnr and flip");
+          "unknown metric 'ssim'; known are mse, rmse, relmse, mae, max, psnr and flip");
 }
 
 TEST_CASE("pixels that are not finite differ unless both have them", "[unit][compare]")

@@ -188,7 +188,7 @@ TEST_CASE("contradicting marks: plumb, and what the others would change", "[unit
     CHECK(evidence.name == DialectName::plumb);
     CHECK(evidence.suspects == std::vector{first, second});
     CHECK_THAT(evidence.reason, ContainsSubstring("the file mixes"));
-    CHECK_THAT(warnings(body + lamp), ContainsSubstring("for zaragoza light ends at lamps") &&
+    CHECK_THAT(warnings(body + lamp), ContainsSubstring("for zaragoza light ends at emitters") &&
                                           ContainsSubstring("--dialect zaragoza"));
     CHECK(warnings(body + black_lamp).empty());
 }

@@ -2,6 +2,7 @@
 
 #include "plumb/shape.h"
 
+#include "scene/float_mode.h"
 #include "support/catch.h"
 #include "support/lamp.h"
 #include "support/params.h"
@@ -75,6 +76,53 @@ TEST_CASE("points of a disk lie within their clearance of it, and in it", "[unit
             CHECK(length(offset) <= scale);
             CHECK(static_cast<double>(sample.clearance) <= 1e-6 * (length(Vec3d(center)) + scale));
         }
+}
+
+TEST_CASE("rays that leave a disk do not find it again", "[statistical][self_intersection]")
+{
+    // As in statistical/self_intersection_test.cpp: any size, up to 1e4 times as far away, or in a plane through the origin,
+    // stretched to ellipses; to both sides, down to angles of 1e-9 with the plane.
+    const FlushDenormals mode;
+    TestRandom random(21);
+    std::uint64_t rays = 0, hits = 0, hits_without_offset = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const double size = std::pow(10.0, random.between(-4, 5));
+        const double offset = size * std::pow(10.0, random.between(-1, 4));
+        Vec3f center = random.direction() * static_cast<float>(offset), normal = random.direction();
+        if (i % 4 == 0) center -= normal * dot(center, normal);
+        if (i % 4 == 1) normal = Vec3f(0, 0, 1);
+        const Transform stretch = *Transform::scale(Vec3d(1.0, random.between(0.01, 1.0), -1.0));
+        std::vector<SceneObject> objects;
+        objects.push_back({disk()
+                               .point("center", center)
+                               .number("radius", size)
+                               .vector("normal", normal)
+                               .transform("toWorld", i % 3 == 0 ? stretch : Transform())
+                               .build<Disk, Shape>(),
+                           ParamsBuilder("bsdf", "diffuse").build<Diffuse, Bsdf>(), nullptr, "disk"});
+        const Scene scene(std::move(objects), {});
+        for (int j = 0; j < 300; ++j) {
+            const ShapeSample sample = scene.objects()[0].shape->sample_area(0.0, random.next_2d());
+            SurfacePoint at;
+            at.position = sample.position;
+            at.geometric_normal = sample.normal;
+            at.clearance = sample.clearance;
+            const Vec3f from = sample.position + random.direction() * static_cast<float>(size);
+            if (j % 2 == 0)
+                if (const auto hit = scene.intersect({from, sample.position - from})) at = *hit;
+            const Vec3d tangent = normalize(cross(Vec3d(sample.normal), Vec3d(random.direction())));
+            const double slope = std::pow(10.0, random.between(-9, 1)) * (j % 3 == 0 ? -1.0 : 1.0);
+            const Vec3f direction(tangent + Vec3d(sample.normal) * slope);
+            if (dot(direction, sample.normal) == 0.f) continue;
+            ++rays;
+            hits += scene.occluded(at.spawn_ray(direction)) ? 1 : 0;
+            at.clearance = 0.f;
+            hits_without_offset += scene.occluded(at.spawn_ray(direction)) ? 1 : 0;
+        }
+    }
+    CHECK(rays > 500'000);
+    CHECK(hits == 0);
+    CHECK(hits_without_offset > 100); // the test can fail
 }
 
 TEST_CASE("what is wrong with a disk", "[unit][shape]")

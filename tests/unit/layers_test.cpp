@@ -273,5 +273,5 @@ TEST_CASE("a state file with impossible layers is refused", "[unit][layers][stat
     const std::vector<unsigned char> bytes = encode_state(state, {9, 9}, {});
     folder.write("bad.exr", std::string(bytes.begin(), bytes.end()));
     CHECK_THAT(message([&] { read_state(folder / "bad.exr"); }),
-               ContainsSubstring("it has sums that its samples cannot have"));
+               ContainsSubstring("its sums do not fit its samples"));
 }

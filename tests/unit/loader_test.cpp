@@ -322,7 +322,7 @@ TEST_CASE("a picture must fit into memory", "[unit][loader]")
 TEST_CASE("scene files that cannot be read", "[unit][loader]")
 {
     const TempFolder folder;
-    CHECK_THROWS_WITH(load_scene(folder / "none.xml"), ContainsSubstring("there is no file '"));
+    CHECK_THROWS_WITH(load_scene(folder / "none.xml"), ContainsSubstring("none.xml' does not exist"));
     CHECK_THROWS_AS(load_scene(folder / "none.xml"), Error);
     CHECK_THROWS_WITH(load_scene(folder.path()), ContainsSubstring("is a directory"));
 }

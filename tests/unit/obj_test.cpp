@@ -301,14 +301,13 @@ TEST_CASE("every mistake in an OBJ file is an error with its place", "[unit][obj
         {good + "f 1 2 99999999999\n",
          "7:7 [99999999999] vertex index 99999999999 is out of range: the file has 4 "
          "vertices"},
-        {good + "f 1 2 -5\n", "7:7 [-5] vertex index -5 reaches back beyond the first: 4 vertices so far"},
+        {good + "f 1 2 -5\n", "7:7 [-5] vertex index -5 is out of range: only 4 vertices so far"},
         {good + "f 1/1 2/2 3/1\n",
          "7:9 [2] texture coordinate index 2 is out of range: the file has 1 texture "
          "coordinate"},
         {good + "f 1//1 2//1 3//7\n", "7:16 [7] normal index 7 is out of range: the file has 1 normal"},
         {square + "f 1//1 2//1 3//1\n", "5:6 [1] normal index 1 is out of range: the file has no normals"},
-        {good + "f 1/1/1 2/1/-2 3\n",
-         "7:13 [-2] normal index -2 reaches back beyond the first: 1 normal so far"},
+        {good + "f 1/1/1 2/1/-2 3\n", "7:13 [-2] normal index -2 is out of range: only 1 normal so far"},
         {good + "f 1 2\n", "7:1 [f 1 2] a face needs at least 3 corners, not 2"},
         {good + "f\n", "7:1 [f] a face needs at least 3 corners, not 0"},
         {good + "f 1 2 3x\n", "7:7 [3x] '3x' is not a face corner; those are written p, p/t, p//n or p/t/n"},
@@ -467,7 +466,7 @@ TEST_CASE("of an OBJ file's errors the first one is reported, whatever chunk it 
     CHECK(error_of(Strip{0, "\n", {{15999, "f 1 2"}, {15000, "f 1 2 x"}, {15500, "f 0 1 2"}}}.text()) ==
           "90006:7 [x] 'x' is not a face corner; those are written p, p/t, p//n or p/t/n");
     CHECK(error_of(Strip{0, "\n", {{15999, "f 1 2 -48001"}}}.text()) ==
-          "96000:7 [-48001] vertex index -48001 reaches back beyond the first: 48000 vertices so far");
+          "96000:7 [-48001] vertex index -48001 is out of range: only 48000 vertices so far");
     // Those that reach beyond the end are known when all is read: the largest, where it stands first.
     CHECK(error_of(
               Strip{0, "\n", {{3, "f 1 2 50000"}, {15990, "f 1 2 50001"}, {15995, "f 1 2 50001"}}}.text()) ==

@@ -195,7 +195,7 @@ TEST_CASE("what is wrong with a suite", "[unit][suite]")
         CHECK(folder.complaint(xml) == expected);
     }
     CHECK_THROWS_WITH(plan_batch((folder / "none.xml").string(), {}),
-                      "there is no file '" + (folder / "none.xml").string() + "'");
+                      "file '" + (folder / "none.xml").string() + "' does not exist");
 }
 
 TEST_CASE("patterns", "[unit][suite]")

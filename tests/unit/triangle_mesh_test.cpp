@@ -238,7 +238,7 @@ TEST_CASE("a mesh without area, out of range or missing is an error", "[unit][sh
     CHECK_THROWS_WITH(meshes.read(one_triangle, tiny), ContainsSubstring("area of 0"));
     const auto huge = meshes.params(one_triangle).transform("toWorld", *Transform::scale(Vec3d(1e39)));
     CHECK_THAT((huge.complaints<TriangleMesh, Shape>().at(0)),
-               ContainsSubstring("further away than a float can tell"));
+               ContainsSubstring("farther than a 32-bit float can represent"));
     const auto missing = ParamsBuilder("mesh", "obj").string("filename", "no/such.obj");
     CHECK_THAT((missing.complaints<TriangleMesh, Shape>().at(0)), ContainsSubstring("no/such.obj"));
     CHECK((missing.complaints<TriangleMesh, Shape>().size()) == 1);
