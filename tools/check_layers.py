@@ -23,6 +23,7 @@ LAYERS = [
     ["scene"],
     ["integrators"],
     ["render"],
+    ["settings"],
     ["check"],
     ["scene_file"],
     ["suite_file", "test_file"],

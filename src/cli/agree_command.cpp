@@ -23,14 +23,15 @@ std::uint64_t samples_in(double seconds, const RenderJob& job, const RenderOptio
     return static_cast<std::uint64_t>(std::clamp(samples, 4.0, static_cast<double>(film_max_samples)));
 }
 
-Estimate estimate(const Options& options, const Estimator& estimator, std::uint64_t number, double seconds)
+Estimate estimate(const EstimatorRequest& request, const Estimator& estimator, std::uint64_t number,
+                  double seconds)
 {
-    const LoadedScene scene = load_for(estimator, options, number == 0);
-    RenderOptions how = options.render;
+    const LoadedScene scene = load_for(estimator, request, number == 0);
+    RenderOptions how = render_options(request.settings, request.threads);
     how.seed += number; // independent pictures: independent seeds
     how.samples_per_pixel =
         seconds > 0.0 ? samples_in(seconds, scene.job, how) : scene.job.sampler->samples_per_pixel();
-    ProgressDisplay display(options.quiet);
+    ProgressDisplay display(request.quiet);
     const RenderState result =
         render(scene.job, how, [&](const Progress& progress) { display.show(progress); });
 
@@ -39,12 +40,12 @@ Estimate estimate(const Options& options, const Estimator& estimator, std::uint6
     return made;
 }
 
-std::string agreement_json(const Options& options, const std::vector<Estimate>& estimates,
+std::string agreement_json(const EstimatorRequest& request, const std::vector<Estimate>& estimates,
                            const std::vector<Pair>& pairs)
 {
     JsonWriter json;
     json.begin_object();
-    write_verdict(json, options, pairs);
+    write_verdict(json, request, pairs);
     json.begin_array("estimates");
     for (const Estimate& estimate : estimates) {
         json.begin_object();
@@ -75,18 +76,19 @@ Exit code: 0 they agree, 1 the scene is wrong, 2 wrong usage, 3 they differ,
 )";
 }
 
-int agree_command(const Options& options)
+int agree_command(const EstimatorRequest& request)
 {
-    const std::vector<Estimator> estimators = estimators_of(options);
-    check_outputs({}, options.json);
-    const double seconds_each = options.stop.seconds.value_or(0.0) / static_cast<double>(estimators.size());
+    const std::vector<Estimator> estimators = estimators_of(request, "agree");
+    check_outputs({}, request.json);
+    const double seconds_each =
+        request.settings.stop.seconds.value_or(0.0) / static_cast<double>(estimators.size());
     std::vector<Estimate> estimates;
     for (const Estimator& estimator : estimators)
-        estimates.push_back(estimate(options, estimator, estimates.size(), seconds_each));
-    const std::vector<Pair> pairs = compare_pairs(estimates, options.compare.how);
+        estimates.push_back(estimate(request, estimator, estimates.size(), seconds_each));
+    const std::vector<Pair> pairs = compare_pairs(estimates, request.how);
     const CompareOutcome outcome = outcome_of(pairs);
-    if (!options.quiet && options.json != "-") {
-        print_output(visible_text(options.subject) + "\n");
+    if (!request.quiet && request.json != "-") {
+        print_output(visible_text(request.scene) + "\n");
         for (const Estimate& estimate : estimates)
             print_output(
                 fmt::format("  {}: {} samples per pixel\n", estimate.name, estimate.samples_per_pixel));
@@ -95,7 +97,7 @@ int agree_command(const Options& options)
             fmt::format("{}; errors shared by all estimators cannot be detected\n", verdict_of(outcome)));
         if (outcome == CompareOutcome::undecided) print_output(advice(estimates, pairs));
     }
-    if (!options.json.empty()) write_json(options.json, agreement_json(options, estimates, pairs));
+    if (!request.json.empty()) write_json(request.json, agreement_json(request, estimates, pairs));
     return exit_code_of(outcome);
 }
 

@@ -23,40 +23,39 @@ bool is_chosen(const std::string& title, const std::string& filter)
     return title.find(filter) != title.npos;
 }
 
-std::vector<BatchJob> chosen(const std::vector<BatchJob>& jobs, const Options& options)
+std::vector<BatchJob> chosen(const std::vector<BatchJob>& jobs, const BatchRequest& request)
 {
     std::vector<BatchJob> result;
     for (const BatchJob& job : jobs)
-        if (is_chosen(job.entry.title(), options.batch.filter)) result.push_back(job);
+        if (is_chosen(job.entry.title(), request.filter)) result.push_back(job);
     if (result.empty())
-        throw Error(fmt::format("no image of '{}' matches '{}'; the first image is {}", options.subject,
-                                options.batch.filter, jobs.front().entry.title()));
+        throw Error(fmt::format("no image of '{}' matches '{}'; the first image is {}", request.suite,
+                                request.filter, jobs.front().entry.title()));
     return result;
 }
 
 // References, too, unless they are to be made.
-std::vector<fs::path> files_to_keep(const std::vector<BatchJob>& jobs, const Options& options)
+std::vector<fs::path> files_to_keep(const std::vector<BatchJob>& jobs, const BatchRequest& request)
 {
-    std::set<fs::path> files = {options.subject};
+    std::set<fs::path> files = {request.suite};
     for (const BatchJob& job : jobs) {
         files.insert(job.entry.scene);
-        if (!options.batch.update && !job.entry.reference.empty()) files.insert(job.entry.reference);
+        if (!request.update && !job.entry.reference.empty()) files.insert(job.entry.reference);
     }
     return {files.begin(), files.end()};
 }
 
 // Runs one job after the other, with a line on the console for each, until a signal comes, or one fails if that is asked for.
 template <class Run>
-BatchRun run_all(const std::vector<BatchJob>& jobs, const Options& options, const Run& run)
+BatchRun run_all(const std::vector<BatchJob>& jobs, const BatchRequest& request, const Run& run)
 {
     const auto start = std::chrono::steady_clock::now();
     std::size_t width = 0;
     for (const BatchJob& job : jobs)
-        width =
-            std::max(width, (options.batch.update ? job.entry.reference.string() : job.entry.title()).size());
+        width = std::max(width, (request.update ? job.entry.reference.string() : job.entry.title()).size());
 
     BatchRun all;
-    all.suite = options.subject;
+    all.suite = request.suite;
     bool stopped = false;
     for (const BatchJob& job : jobs) {
         if (stopped) {
@@ -66,13 +65,19 @@ BatchRun run_all(const std::vector<BatchJob>& jobs, const Options& options, cons
             continue;
         }
         const BatchResult& result = all.results.emplace_back(run(job));
-        if (!options.quiet || result.verdict == BatchVerdict::error) print_output(result_line(result, width));
+        if (!request.quiet || result.verdict == BatchVerdict::error) print_output(result_line(result, width));
         finish_output(); // so far
         all.signal = result.signal;
-        stopped = result.signal != 0 || (options.batch.fail_fast && result.verdict > BatchVerdict::passes);
+        stopped = result.signal != 0 || (request.fail_fast && result.verdict > BatchVerdict::passes);
     }
     all.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return all;
+}
+
+// Whether the reference would be another picture.
+bool makes_another(const BatchJob& a, const BatchJob& b)
+{
+    return a.entry.scene != b.entry.scene || a.reference != b.reference;
 }
 
 // One job for each reference of the chosen ones: the first in the suite that names it.
@@ -91,7 +96,7 @@ std::vector<BatchJob> reference_makers(const std::vector<BatchJob>& jobs,
         makers.push_back(maker);
         if (maker.entry.reference_settings.contains("spp")) continue;
         for (const BatchJob& other : jobs)
-            if (other.entry.reference == reference && other.reference_words != maker.reference_words)
+            if (other.entry.reference == reference && makes_another(other, maker))
                 diagnostics.error(
                     maker.entry.reference_at,
                     fmt::format("several entries share '{}'; say how the first of them, '{}', makes it: "
@@ -103,13 +108,13 @@ std::vector<BatchJob> reference_makers(const std::vector<BatchJob>& jobs,
     return makers;
 }
 
-int update(const Options& options, const std::vector<BatchJob>& jobs,
+int update(const BatchRequest& request, const std::vector<BatchJob>& jobs,
            const std::vector<BatchJob>& chosen_jobs)
 {
-    const KeptFiles kept(files_to_keep(jobs, options));
-    const BatchRun run = run_all(reference_makers(jobs, chosen_jobs), options,
-                                 [&](const BatchJob& job) { return make_reference(job, options, kept); });
-    if (!options.quiet) print_output(summary_text(run) + "\n");
+    const KeptFiles kept(files_to_keep(jobs, request));
+    const BatchRun run = run_all(reference_makers(jobs, chosen_jobs), request,
+                                 [&](const BatchJob& job) { return make_reference(job, request, kept); });
+    if (!request.quiet) print_output(summary_text(run) + "\n");
     return run.exit_code();
 }
 
@@ -124,28 +129,27 @@ void write_reports(const BatchRun& run)
 
 } // namespace
 
-int batch_command(const Options& options)
+int batch_command(const BatchRequest& request)
 {
-    const std::vector<BatchJob> jobs = plan_batch(options.subject, options.load.definitions);
-    const std::vector<BatchJob> chosen_jobs = chosen(jobs, options);
-    if (options.batch.update) return update(options, jobs, chosen_jobs);
+    const std::vector<BatchJob> jobs = plan_batch(request.suite, request.definitions);
+    const std::vector<BatchJob> chosen_jobs = chosen(jobs, request);
+    if (request.update) return update(request, jobs, chosen_jobs);
 
-    const fs::path directory = options.batch.directory.empty()
-                                   ? fs::path("batch") / fs::path(options.subject).stem()
-                                   : fs::path(options.batch.directory);
+    const fs::path directory = request.directory.empty() ? fs::path("batch") / fs::path(request.suite).stem()
+                                                         : fs::path(request.directory);
     make_directory(directory);
     for (const char* report : {"report.json", "junit.xml", "summary.md", "report.html", "state.txt"})
         check_text_path(directory / report);
     BatchContext context{
-        options, directory, BatchState(directory), {}, KeptFiles(files_to_keep(jobs, options))};
+        request, directory, BatchState(directory), {}, KeptFiles(files_to_keep(jobs, request))};
     for (const BatchJob& job : jobs)
         if (job.entry.settings.contains("spp")) context.titles.insert(job.entry.title());
 
     BatchRun run =
-        run_all(chosen_jobs, options, [&](const BatchJob& job) { return run_entry(job, context); });
+        run_all(chosen_jobs, request, [&](const BatchJob& job) { return run_entry(job, context); });
     run.directory = directory.string();
     write_reports(run);
-    if (!options.quiet)
+    if (!request.quiet)
         print_output(fmt::format("{}; reports: {}\n", summary_text(run),
                                  visible_text((directory / "report.html").string())));
     return run.exit_code();

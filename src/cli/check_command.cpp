@@ -47,9 +47,9 @@ Exit code: 0 no mistakes found, 1 errors, 2 wrong usage, 3 likely mistakes.
 )";
 }
 
-int check_command(const Options& options)
+int check_command(const SceneRequest& request)
 {
-    const LoadedScene scene = load_and_log(options);
+    const LoadedScene scene = load_and_log(request);
     ImageLibrary::hash(); // is loaded, since rendering takes its memory, too
     const std::string memory = memory_text(scene);
     const std::vector<Doubt> doubts = find_doubts(scene.job);
@@ -57,7 +57,7 @@ int check_command(const Options& options)
     for (const Doubt& doubt : doubts)
         print_output(fmt::format("{}{}{}\n", visible_text(doubt.object), doubt.object.empty() ? "" : ": ",
                                  visible_text(doubt.text)));
-    if (!options.quiet) {
+    if (!request.quiet) {
         print_output(memory + "\n");
         if (is_clean) print_output("no mistakes found\n");
     }

@@ -24,15 +24,15 @@ bool is_low_dynamic_range(const std::filesystem::path& path)
            extension == ".tga" || extension == ".gif" || extension == ".ppm";
 }
 
-void write_reports(const Options& options, const Comparison& comparison, const Image& a, const Image& b)
+void write_reports(const CompareRequest& request, const Comparison& comparison, const Image& a,
+                   const Image& b)
 {
-    if (!options.compare.difference.empty())
-        write_image(options.compare.difference, options.compare.difference_is_flip
-                                                    ? flip_image(comparison)
-                                                    : difference_image(a, b, options.compare.how.layer));
-    if (!options.json.empty())
-        write_json(options.json,
-                   comparison_json(comparison, options.compare.how, options.subject, options.subjects[1]));
+    if (!request.difference.empty())
+        write_image(request.difference, request.difference_is_flip
+                                            ? flip_image(comparison)
+                                            : difference_image(a, b, request.how.layer));
+    if (!request.json.empty())
+        write_json(request.json, comparison_json(comparison, request.how, request.a, request.b));
 }
 
 } // namespace
@@ -45,28 +45,27 @@ Exit code: 0 passes, 1 cannot be compared, 2 wrong usage, 3 differs,
 )";
 }
 
-int compare_command(const Options& options)
+int compare_command(const CompareRequest& request)
 {
     std::vector<std::string> images;
-    if (!options.compare.difference.empty()) images.push_back(options.compare.difference);
-    check_outputs(images, options.json);
-    refuse_overwriting_inputs(KeptFiles({options.subject, options.subjects[1]}), images, options.json,
+    if (!request.difference.empty()) images.push_back(request.difference);
+    check_outputs(images, request.json);
+    refuse_overwriting_inputs(KeptFiles({request.a, request.b}), images, request.json,
                               "it is one of the images to compare");
-    const Image a = read_image(options.subject, true);
-    const Image b = read_image(options.subjects[1], true);
+    const Image a = read_image(request.a, true);
+    const Image b = read_image(request.b, true);
 
-    CompareOptions how = options.compare.how;
-    if (options.compare.choose_flip && !how.layer.empty())
+    CompareSettings how = request.how;
+    if (!how.flip && !how.layer.empty())
         how.flip = FlipMode::none; // numbers, no colours
-    else if (options.compare.choose_flip)
-        how.flip = is_low_dynamic_range(options.subject) && is_low_dynamic_range(options.subjects[1])
-                       ? FlipMode::ldr
-                       : FlipMode::hdr;
+    else if (!how.flip)
+        how.flip = is_low_dynamic_range(request.a) && is_low_dynamic_range(request.b) ? FlipMode::ldr
+                                                                                      : FlipMode::hdr;
     const Comparison comparison = compare(a, b, how);
-    write_reports(options, comparison, a, b);
-    if (!options.quiet && options.json != "-")
-        print_output("A " + visible_text(options.subject) + "\nB " + visible_text(options.subjects[1]) +
-                     "\n" + comparison_text(comparison, how));
+    write_reports(request, comparison, a, b);
+    if (!request.quiet && request.json != "-")
+        print_output("A " + visible_text(request.a) + "\nB " + visible_text(request.b) + "\n" +
+                     comparison_text(comparison, how));
     return exit_code_of(comparison.outcome);
 }
 

@@ -106,7 +106,7 @@ void write_scale(JsonWriter& json, const Comparison& c, const ScaleTest& scale)
     json.end_object();
 }
 
-void write_significance(JsonWriter& json, const Comparison& c, const CompareOptions& options)
+void write_significance(JsonWriter& json, const Comparison& c, const CompareSettings& options)
 {
     const Significance& s = c.significance;
     json.begin_object("noise");
@@ -129,7 +129,7 @@ void write_significance(JsonWriter& json, const Comparison& c, const CompareOpti
     json.end_object();
 }
 
-void write_limits(JsonWriter& json, const Comparison& c, const CompareOptions& options)
+void write_limits(JsonWriter& json, const Comparison& c, const CompareSettings& options)
 {
     json.begin_array("limits");
     for (const Threshold& limit : options.thresholds) {
@@ -146,7 +146,7 @@ void write_limits(JsonWriter& json, const Comparison& c, const CompareOptions& o
 
 } // namespace
 
-void write_comparison(JsonWriter& json, const Comparison& comparison, const CompareOptions& options)
+void write_comparison(JsonWriter& json, const Comparison& comparison, const CompareSettings& options)
 {
     json.text("outcome", outcome_word(comparison.outcome));
     json.boolean("identical", comparison.identical);
@@ -161,8 +161,8 @@ void write_comparison(JsonWriter& json, const Comparison& comparison, const Comp
     write_limits(json, comparison, options);
 }
 
-std::string comparison_json(const Comparison& comparison, const CompareOptions& options, const std::string& a,
-                            const std::string& b)
+std::string comparison_json(const Comparison& comparison, const CompareSettings& options,
+                            const std::string& a, const std::string& b)
 {
     JsonWriter json;
     json.begin_object();

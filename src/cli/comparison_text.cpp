@@ -79,7 +79,7 @@ std::string scale_text(const Comparison& c, const ScaleTest& scale)
                               number(test.mean_b));
 }
 
-std::string finding_text(const Significance& s, const CompareOptions& options)
+std::string finding_text(const Significance& s, const CompareSettings& options)
 {
     switch (s.finding) {
     case Finding::not_asked: return fmt::format("no verdict on the noise: {}", s.reason);
@@ -93,7 +93,7 @@ std::string finding_text(const Significance& s, const CompareOptions& options)
     return {};
 }
 
-std::string significance_text(const Comparison& c, const CompareOptions& options)
+std::string significance_text(const Comparison& c, const CompareSettings& options)
 {
     const Significance& s = c.significance;
     std::string text;
@@ -111,7 +111,7 @@ std::string significance_text(const Comparison& c, const CompareOptions& options
     return text;
 }
 
-std::string threshold_text(const Comparison& c, const CompareOptions& options)
+std::string threshold_text(const Comparison& c, const CompareSettings& options)
 {
     std::string text;
     for (const Threshold& limit : options.thresholds) {
@@ -135,7 +135,7 @@ std::string_view outcome_word(CompareOutcome outcome)
     return "";
 }
 
-std::string comparison_text(const Comparison& comparison, const CompareOptions& options)
+std::string comparison_text(const Comparison& comparison, const CompareSettings& options)
 {
     std::string text = metrics_text(comparison);
     if (comparison.identical)

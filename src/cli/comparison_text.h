@@ -11,12 +11,12 @@
 
 namespace plumb {
 
-std::string comparison_text(const Comparison& comparison, const CompareOptions& options);
-std::string comparison_json(const Comparison& comparison, const CompareOptions& options, const std::string& a,
-                            const std::string& b);
+std::string comparison_text(const Comparison& comparison, const CompareSettings& options);
+std::string comparison_json(const Comparison& comparison, const CompareSettings& options,
+                            const std::string& a, const std::string& b);
 
 // The members of comparison_json() but for the names of the pictures.
-void write_comparison(JsonWriter& json, const Comparison& comparison, const CompareOptions& options);
+void write_comparison(JsonWriter& json, const Comparison& comparison, const CompareSettings& options);
 
 std::string_view outcome_word(CompareOutcome outcome); // passes, differs, undecided
 int exit_code_of(CompareOutcome outcome);

@@ -3,7 +3,7 @@
 
 #include "cli/commands.h"
 #include "cli/comparison_text.h"
-#include "cli/verbs.h"
+#include "cli/usage_error.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -15,28 +15,26 @@ std::string Estimator::name() const
     return sampler.empty() ? integrator : integrator + " with " + sampler;
 }
 
-std::vector<Estimator> estimators_of(const Options& options)
+std::vector<Estimator> estimators_of(const EstimatorRequest& request, std::string_view verb)
 {
-    const EstimatorRequest& request = options.estimators;
     std::vector<Estimator> estimators;
     for (const std::string& integrator : request.integrators) {
         if (request.samplers.empty()) estimators.push_back({integrator, ""});
         for (const std::string& sampler : request.samplers) estimators.push_back({integrator, sampler});
     }
     if (estimators.size() < 2)
-        throw UsageError(fmt::format("{} needs two estimators or more; name them with --integrators",
-                                     row_of(options.verb).name));
-    if (options.stop.seconds && options.load.samples_per_pixel)
+        throw UsageError(fmt::format("{} needs two estimators or more; name them with --integrators", verb));
+    if (request.settings.stop.seconds && request.settings.samples.per_pixel)
         throw UsageError("--time and --spp cannot be used together");
     return estimators;
 }
 
-LoadedScene load_for(const Estimator& estimator, const Options& options, bool says)
+LoadedScene load_for(const Estimator& estimator, const EstimatorRequest& request, bool says)
 {
-    Options one = options;
-    one.load.integrator = estimator.integrator;
-    if (!estimator.sampler.empty()) one.load.sampler = estimator.sampler;
-    one.quiet = options.quiet || !says;
+    SceneRequest one = request;
+    one.settings.method.integrator = estimator.integrator;
+    if (!estimator.sampler.empty()) one.settings.method.sampler = estimator.sampler;
+    one.quiet = request.quiet || !says;
     return load_and_log(one);
 }
 
@@ -63,9 +61,9 @@ void doubt_if_untested(Comparison& comparison)
 
 } // namespace
 
-std::vector<Pair> compare_pairs(const std::vector<Estimate>& estimates, const CompareOptions& options)
+std::vector<Pair> compare_pairs(const std::vector<Estimate>& estimates, const CompareSettings& options)
 {
-    CompareOptions how = options;
+    CompareSettings how = options;
     how.flip = FlipMode::none;
     how.significance /= static_cast<double>(estimates.size() * (estimates.size() - 1) / 2); // Bonferroni
     std::vector<Pair> pairs;
@@ -132,11 +130,11 @@ std::string advice(const std::vector<Estimate>& estimates, const std::vector<Pai
     return text + "\n";
 }
 
-void write_verdict(JsonWriter& json, const Options& options, const std::vector<Pair>& pairs)
+void write_verdict(JsonWriter& json, const EstimatorRequest& request, const std::vector<Pair>& pairs)
 {
-    json.text("scene", options.subject);
+    json.text("scene", request.scene);
     json.text("verdict", verdict_of(outcome_of(pairs)));
-    json.number("significance", options.compare.how.significance);
+    json.number("significance", request.how.significance);
 }
 
 void write_pairs(JsonWriter& json, const std::vector<Pair>& pairs)

@@ -4,9 +4,10 @@
 // One scene rendered in several ways, and whether they agree: what `renderer agree` and `renderer race` share.
 
 #include "cli/json.h"
-#include "cli/options.h"
+#include "cli/requests.h"
 
 #include "plumb/compare/compare.h"
+#include "plumb/scene_file/scene_file.h"
 
 namespace plumb {
 
@@ -19,10 +20,10 @@ struct Estimator {
 };
 
 // Each integrator with each sampler. Throws UsageError if there are fewer than two, and if --time and --spp are given both.
-std::vector<Estimator> estimators_of(const Options& options);
+std::vector<Estimator> estimators_of(const EstimatorRequest& request, std::string_view verb);
 
-// The options' scene, for the estimator. What loading says is said if that is wanted.
-LoadedScene load_for(const Estimator& estimator, const Options& options, bool says);
+// The scene, for the estimator. What loading says is said if that is wanted.
+LoadedScene load_for(const Estimator& estimator, const EstimatorRequest& request, bool says);
 
 // Of one sample of every pixel, by a few.
 double seconds_per_sample(const RenderJob& job, RenderOptions options);
@@ -41,7 +42,7 @@ struct Pair {
 };
 
 // All pairs, with the significance of all of them together.
-std::vector<Pair> compare_pairs(const std::vector<Estimate>& estimates, const CompareOptions& options);
+std::vector<Pair> compare_pairs(const std::vector<Estimate>& estimates, const CompareSettings& options);
 
 CompareOutcome outcome_of(const std::vector<Pair>& pairs);
 std::string_view verdict_of(CompareOutcome outcome); // agree, differ, undecided
@@ -50,7 +51,7 @@ std::string pair_text(const Pair& pair);             // a line
 // one that rarely finds some of the light.
 std::string advice(const std::vector<Estimate>& estimates, const std::vector<Pair>& pairs);
 // The scene and what was found about it.
-void write_verdict(JsonWriter& json, const Options& options, const std::vector<Pair>& pairs);
+void write_verdict(JsonWriter& json, const EstimatorRequest& request, const std::vector<Pair>& pairs);
 void write_pairs(JsonWriter& json, const std::vector<Pair>& pairs);
 
 } // namespace plumb

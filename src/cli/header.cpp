@@ -5,6 +5,7 @@
 #include "cli/text.h"
 
 #include "plumb/render/aovs.h"
+#include "plumb/settings/settings_header.h"
 
 #include <cstring>
 #include <fmt/format.h>
@@ -26,9 +27,9 @@ std::vector<float> world_to_camera(const Camera& camera)
     return matrix;
 }
 
-std::string scene_name(const Options& options)
+std::string scene_name(const RenderRequest& request)
 {
-    const auto path = std::filesystem::path(options.subject).lexically_normal();
+    const auto path = std::filesystem::path(request.scene).lexically_normal();
     return valid_utf8((path.is_absolute() ? path.filename() : path).generic_string());
 }
 
@@ -62,32 +63,33 @@ std::string input_name(const std::filesystem::path& input, const std::filesystem
     return valid_utf8((inside ? from_scene : input.filename()).generic_string());
 }
 
-Metadata scene_header(const Options& options, const LoadedScene& scene)
+Metadata scene_header(const RenderRequest& request, const LoadedScene& scene)
 {
     Metadata header;
     const auto add = [&](const char* name, MetadataValue value) {
         header.emplace_back(name, std::move(value));
     };
     add("Software", "Plumb " PLUMB_VERSION);
-    add("plumb:scene", options.repeat ? options.repeat->scene : scene_name(options));
-    if (!options.picture_words.empty()) add("plumb:arguments", valid_utf8(options.picture_words.substr(1)));
+    add("plumb:scene", request.repeat ? request.repeat->scene : scene_name(request));
+    for (Metadata::value_type& entry : settings_header(request.settings)) header.push_back(std::move(entry));
     std::string inputs;
     for (const InputFile& input : scene.inputs)
-        inputs += (inputs.empty() ? "" : "\n") + input.hash + " " + input_name(input.path, options.subject);
+        inputs += (inputs.empty() ? "" : "\n") + input.hash + " " + input_name(input.path, request.scene);
     add("plumb:inputs", inputs);
     add("plumb:inputHash", scene.input_hash);
-    if (!options.load.definitions.empty()) {
+    if (!request.settings.scene.definitions.empty()) {
         std::string definitions;
-        for (const auto& [name, value] : options.load.definitions)
+        for (const auto& [name, value] : request.settings.scene.definitions)
             definitions += (definitions.empty() ? "" : " ") + shell_quote(name + "=" + value);
         add("plumb:definitions", valid_utf8(definitions));
     }
     add("plumb:integrator", scene.integrator);
     add("plumb:sampler", scene.sampler);
     if (scene.job.sampler->depends_on_total())
-        add("plumb:samplerTotal", static_cast<int>(render_samples(scene.job, options.render)));
+        add("plumb:samplerTotal",
+            static_cast<int>(render_samples(scene.job, render_options(request.settings, request.threads))));
     if (!scene.job.sampler->is_independent()) add("plumb:errorBars", "upper bounds");
-    add("plumb:seed", std::to_string(options.render.seed));
+    add("plumb:seed", std::to_string(request.settings.samples.seed));
     add("plumb:language", language_version);
     add("plumb:dialect", std::string(to_string(scene.dialect.name)));
     add("plumb:dialectReason", valid_utf8(scene.dialect.reason));
@@ -99,7 +101,7 @@ Metadata scene_header(const Options& options, const LoadedScene& scene)
     add("plumb:instructionSet", scene.job.scene.options().instruction_set);
     add("plumb:embree", scene.job.scene.embree_version());
     add("plumb:processor", processor_maker());
-    for (auto& [name, ids] : id_tables(options.render.aovs, scene.job.scene)) {
+    for (auto& [name, ids] : id_tables(request.settings.view.aovs, scene.job.scene)) {
         for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = fmt::format("{} {}", i + 1, ids[i]);
         header.emplace_back("plumb:ids." + name, valid_utf8(lines_text(ids)));
     }
@@ -107,14 +109,16 @@ Metadata scene_header(const Options& options, const LoadedScene& scene)
     return header;
 }
 
-Metadata work_header(const Options& options, const LoadedScene& scene)
+Metadata work_header(const RenderRequest& request, const LoadedScene& scene)
 {
-    Metadata header = scene_header(options, scene);
+    Metadata header = scene_header(request, scene);
     const BiasReport ledger = make_ledger(scene.job, scene.dialect);
     if (!ledger.biases.empty()) header.emplace_back("plumb:workBiases", lines_text(ledger.biases));
     if (!ledger.model.empty()) header.emplace_back("plumb:workModel", lines_text(ledger.model));
-    if (const auto& part = options.part) {
-        header.emplace_back("plumb:workWanted", static_cast<int>(render_samples(scene.job, options.render)));
+    if (const auto& part = request.part) {
+        header.emplace_back(
+            "plumb:workWanted",
+            static_cast<int>(render_samples(scene.job, render_options(request.settings, request.threads))));
         header.emplace_back("plumb:workPart", fmt::format("{}/{} by {}", part->index + 1, part->count,
                                                           part->by == PartBy::tiles ? "tiles" : "samples"));
     }

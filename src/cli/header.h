@@ -6,7 +6,7 @@
 //
 //     Software                "Plumb 0.1.0"
 //     plumb:scene             the scene file: its path as given, or its name if that was an absolute path
-//     plumb:arguments         the words of the command line that matter; only if there are any
+//     plumb:settings, plumb:set.NAME   the settings: settings_header.h
 //     plumb:inputs            a line for each file that was read: the hash of its bytes, a space, its path from the scene
 //                             file's directory (or its name, if it lies elsewhere)
 //     plumb:inputHash         of all these, and of what the command line and the dialect make of them
@@ -46,16 +46,17 @@
 //     plumb:workProgram       hash_of_program(): whoever goes on must be the same
 //     plumb:workStop          plumb:stop, when the rendering had ended
 
-#include "cli/options.h"
+#include "cli/render_request.h"
 
 #include "plumb/render/evidence.h"
+#include "plumb/scene_file/scene_file.h"
 
 namespace plumb {
 
 // What does not depend on the samples; the evidence does.
-Metadata scene_header(const Options& options, const LoadedScene& scene);
+Metadata scene_header(const RenderRequest& request, const LoadedScene& scene);
 Metadata evidence_header(const Evidence& evidence);
-Metadata work_header(const Options& options,
+Metadata work_header(const RenderRequest& request,
                      const LoadedScene& scene); // scene_header(), and of plumb:work what a scene says
 Metadata with_program(Metadata header);         // loads the image library
 inline constexpr std::string_view work_prefix = "plumb:work";

@@ -9,9 +9,8 @@
 
 namespace plumb {
 
-int help_command(const Options& options)
+int help_command(const std::string& word)
 {
-    const std::string& word = options.subject;
     const auto rows = verb_rows();
     const auto row = std::find_if(rows.begin(), rows.end(), [&](const VerbRow& verb) {
         return verb.name == word || (verb.verb == Verb::render && word == "render"); // it has no name

@@ -54,10 +54,10 @@ void print_value(const std::string& name, const std::vector<float>& values)
 
 } // namespace
 
-int info_command(const Options& options)
+int info_command(const std::string& file)
 {
-    const Image image = read_image(options.subject, false);
-    print_output(visible_text(options.subject) + "\n");
+    const Image image = read_image(file, false);
+    print_output(visible_text(file) + "\n");
     print_row("size", fmt::format("{} x {}", image.full_width(), image.full_height()));
     const PixelRect& window = image.data_window();
     if (window != PixelRect{0, 0, image.full_width(), image.full_height()})

@@ -16,7 +16,7 @@ std::string point_text(const Vec3f& p)
     return fmt::format("({}, {}, {})", p.x, p.y, p.z);
 }
 
-void log_facts(const Options& options, const LoadedScene& loaded)
+void log_facts(const SceneRequest& request, const LoadedScene& loaded)
 {
     const Scene& scene = loaded.job.scene;
     const Vec2i resolution = loaded.job.camera->resolution();
@@ -26,7 +26,7 @@ void log_facts(const Options& options, const LoadedScene& loaded)
     if (!bounds.isEmpty())
         print_log(fmt::format("bounds: {} to {}", point_text(bounds.min), point_text(bounds.max)));
     print_log(fmt::format("image: {} x {} pixels, {} samples each, seed {}", resolution.x, resolution.y,
-                          loaded.job.sampler->samples_per_pixel(), options.render.seed));
+                          loaded.job.sampler->samples_per_pixel(), request.settings.samples.seed));
     print_log(fmt::format("integrator: {}; sampler: {}", loaded.integrator, loaded.sampler));
     print_log(fmt::format(
         "dialect settings: emitters {}, mirror {}, point lights in {}, environment images {}times {}",
@@ -38,33 +38,23 @@ void log_facts(const Options& options, const LoadedScene& loaded)
                           duration_text(loaded.build_seconds), loaded.input_hash));
 }
 
-// What has to fit into memory: the crop, or the one pixel that is replayed.
-LoadOptions load_options(const Options& options)
-{
-    LoadOptions load = options.load;
-    if (const auto& crop = options.render.crop)
-        load.kept_pixels = static_cast<std::uint64_t>(crop->width) * static_cast<std::uint64_t>(crop->height);
-    if (options.verb == Verb::replay) load.kept_pixels = 1;
-    return load;
-}
-
 } // namespace
 
-LoadedScene load_and_log(const Options& options)
+LoadedScene load_and_log(const SceneRequest& request)
 {
-    const std::filesystem::path path(options.subject);
+    const std::filesystem::path path(request.scene);
     std::error_code ignored;
     if (!std::filesystem::exists(path, ignored)) {
-        if (is_no_file_name(options.subject) && !closest_verb(options.subject).empty())
-            throw UsageError(unknown_verb(options.subject));
-        throw Error(fmt::format("scene file '{}' does not exist{}", options.subject,
-                                find_named_file({}, options.subject).way_out));
+        if (is_no_file_name(request.scene) && !closest_verb(request.scene).empty())
+            throw UsageError(unknown_verb(request.scene));
+        throw Error(fmt::format("scene file '{}' does not exist{}", request.scene,
+                                find_named_file({}, request.scene).way_out));
     }
-    LoadedScene scene = load_scene(path, load_options(options));
-    if (options.quiet) return scene;
+    LoadedScene scene = load_scene(path, load_options(request));
+    if (request.quiet) return scene;
     for (const Diagnostic& warning : scene.warnings) print_log(warning);
     print_log(fmt::format("dialect: {} ({})", to_string(scene.dialect.name), scene.dialect.reason));
-    if (options.verbose) log_facts(options, scene);
+    if (request.verbose) log_facts(request, scene);
     return scene;
 }
 

@@ -10,6 +10,8 @@
 #include "cli/provenance.h"
 #include "cli/text.h"
 
+#include "plumb/settings/settings_header.h"
+
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -70,8 +72,16 @@ void check_part(const Merged& merged, const StateFile& part, const std::string& 
 // Of headers that differ in nothing that changes a sample: the same one whatever the order of the parts.
 std::string rank(const Metadata& header)
 {
-    return header_text(header, "plumb:scene") + "\n" + header_text(header, "plumb:arguments") + "\n" +
+    return header_text(header, "plumb:scene") + "\n" + options_text(settings_of_header(header)) + "\n" +
            header_text(header, "plumb:dialectReason");
+}
+
+// In the entries of this program, whichever had written them.
+void renew_settings(Metadata& header, const RenderSettings& settings)
+{
+    std::erase_if(header, [](const auto& entry) { return is_settings_entry(entry.first); });
+    const Metadata entries = settings_header(settings);
+    header.insert(header.end(), entries.begin(), entries.end());
 }
 
 Merged merge_parts(const std::vector<std::string>& names)
@@ -82,7 +92,7 @@ Merged merge_parts(const std::vector<std::string>& names)
         check_language(part, name);
         // What is wrong with a header is said before many other parts are read.
         wanted_samples(part, name);
-        header_options(part.header, header_text(part.header, "plumb:scene"), name);
+        renew_settings(part.header, header_settings(part.header, name));
         const SampleSet samples = part.state.taken;
         const std::string label = header_text(part.header, "plumb:workPart");
         if (!merged) {
@@ -120,7 +130,7 @@ void replace(Metadata& header, const std::string& name, const std::string& text)
     if (!text.empty()) header.emplace_back(name, text);
 }
 
-// What the whole picture's header has of it, and the options that it was rendered with.
+// What the whole picture's header has of it.
 Metadata picture_header(const StateFile& file, const Evidence& evidence)
 {
     Metadata header = file.header;
@@ -130,7 +140,7 @@ Metadata picture_header(const StateFile& file, const Evidence& evidence)
     return header;
 }
 
-std::string merge_json(const Options& options, const Merged& merged, const SampleSet& missing,
+std::string merge_json(const MergeRequest& request, const Merged& merged, const SampleSet& missing,
                        const std::vector<std::string>& outputs)
 {
     JsonWriter json;
@@ -150,23 +160,22 @@ std::string merge_json(const Options& options, const Merged& merged, const Sampl
     json.begin_array("outputs");
     for (const std::string& output : outputs) json.text({}, output);
     json.end_array();
-    json.text("checkpoint", options.checkpoint.file);
+    json.text("checkpoint", request.checkpoint);
     json.end_object();
     return std::move(json).finish();
 }
 
-void write_picture_of(const Merged& merged, const Options& run)
+void write_picture_of(const Merged& merged, const MergeRequest& request)
 {
     const StateFile& file = merged.file;
     const BiasReport ledger{lines_of(header_text(file.header, "plumb:workBiases")),
                             lines_of(header_text(file.header, "plumb:workModel"))};
     const Evidence evidence = make_evidence(ledger, file.state, header_text(file.header, "plumb:workStop"));
-    const Options options =
-        header_options(file.header, header_text(file.header, "plumb:scene"), merged.parts.front().first);
-    Image image = file.state.film.develop(options.variance ? Channels::color_and_evidence : Channels::color);
+    const OutputSettings output = settings_of_header(file.header).output;
+    Image image = file.state.film.develop(output.error_bars ? Channels::color_and_evidence : Channels::color);
     image.metadata = picture_header(file, evidence);
-    write_pictures(run.outputs, image, options.exposure, packing_of(evidence),
-                   std::filesystem::path(run.subject).parent_path());
+    write_pictures(request.outputs, image, output.exposure, packing_of(evidence),
+                   std::filesystem::path(request.parts.front()).parent_path());
 }
 
 } // namespace
@@ -184,18 +193,18 @@ without --allow-missing.
 )";
 }
 
-int merge_command(const Options& options)
+int merge_command(const MergeRequest& request)
 {
-    const std::string& checkpoint = options.checkpoint.file;
-    std::vector<std::string> outputs = options.outputs;
+    const std::string& checkpoint = request.checkpoint;
+    std::vector<std::string> outputs = request.outputs;
     if (!checkpoint.empty()) outputs.push_back(checkpoint);
     std::vector<std::string> written = outputs;
     if (!checkpoint.empty()) written.push_back(previous_generation(checkpoint).string());
-    check_outputs(written, options.json);
-    refuse_overwriting_inputs(KeptFiles({options.subjects.begin(), options.subjects.end()}), written,
-                              options.json, "it is a part to be merged");
+    check_outputs(written, request.json);
+    refuse_overwriting_inputs(KeptFiles({request.parts.begin(), request.parts.end()}), written, request.json,
+                              "it is a part to be merged");
 
-    Merged merged = merge_parts(options.subjects);
+    Merged merged = merge_parts(request.parts);
     StateFile& file = merged.file;
     const SampleSet wanted(
         SampleBlock{file.state.film.window(), 0, wanted_samples(file, merged.parts.front().first)});
@@ -206,7 +215,7 @@ int merge_command(const Options& options)
             : fmt::format("{} of {} samples are missing{}, the first of them at {}",
                           count_text(missing.count()), count_text(wanted.count()),
                           missing_parts(merged.names), SampleSet(missing.blocks().front()).text());
-    if (!missing.empty() && !options.outputs.empty() && !options.allow_missing)
+    if (!missing.empty() && !request.outputs.empty() && !request.allow_missing)
         throw Error(complaint + "; pass --allow-missing to merge without them");
 
     std::sort(merged.names.begin(), merged.names.end());
@@ -215,9 +224,9 @@ int merge_command(const Options& options)
         keep_previous(checkpoint, file.header);
         save_checkpoint(checkpoint, file.state, file.resolution, file.header);
     }
-    if (!options.outputs.empty()) write_picture_of(merged, options);
-    write_json(options.json, merge_json(options, merged, missing, options.outputs));
-    if (options.quiet) return exit_code::done;
+    if (!request.outputs.empty()) write_picture_of(merged, request);
+    write_json(request.json, merge_json(request, merged, missing, request.outputs));
+    if (request.quiet) return exit_code::done;
     print_log(fmt::format("{}: {} samples of {} part{}", list_text(outputs),
                           count_text(file.state.taken.count()), merged.parts.size(),
                           merged.parts.size() == 1 ? "" : "s"));

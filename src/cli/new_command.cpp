@@ -106,12 +106,12 @@ overwritten.
 )";
 }
 
-int new_command(const Options& options)
+int new_command(const std::string& file, bool quiet)
 {
-    write_new(options.subject, first_scene);
-    if (!options.quiet) {
-        print_log(fmt::format("{}: written; to see it:", shell_quote(options.subject)));
-        print_log(fmt::format("    renderer {}", shell_quote(options.subject)));
+    write_new(file, first_scene);
+    if (!quiet) {
+        print_log(fmt::format("{}: written; to see it:", shell_quote(file)));
+        print_log(fmt::format("    renderer {}", shell_quote(file)));
     }
     return exit_code::done;
 }

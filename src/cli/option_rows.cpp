@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "cli/option_rows.h"
 
-#include "cli/values.h"
 #include "cli/verbs.h"
-#include "plumb/render/aovs.h"
-#include "plumb/scene/instruction_set.h"
+#include "settings/parse_value.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -37,250 +35,160 @@ constexpr unsigned every_verb = ~0u;
 using Name = std::string_view;
 using Text = const std::string&;
 
-std::vector<std::string_view> dialect_words()
+// The option of a setting.
+template <class Settings>
+OptionRow setting(Topic topic, unsigned verbs, std::string_view name, Settings& (*of)(Options&))
 {
-    std::vector<std::string_view> words = {"auto"};
-    for (const DialectName dialect : all_dialects) words.push_back(to_string(dialect));
-    return words;
+    const SettingRow<Settings>& row = *find_setting<Settings>(name);
+    const std::string short_name = row.short_name.empty() ? "" : fmt::format("-{},", row.short_name);
+    return {topic,
+            verbs,
+            fmt::format("{}--{}", short_name, row.name),
+            std::string(row.value),
+            std::string(row.help),
+            [&row, of](Options& o, Name n, Text t) { row.set(of(o), n, t); },
+            row.repeatable};
 }
 
-void define(Options& options, Name name, Text text)
+OptionRow of_picture(Topic topic, unsigned verbs, std::string_view name)
 {
-    const auto [variable, value] = parse_definition(name, text);
-    if (!options.load.definitions.emplace(variable, value).second)
-        throw UsageError(fmt::format("{} {} is given twice", name, variable));
+    return setting<RenderSettings>(topic, verbs, name,
+                                   [](Options& o) -> RenderSettings& { return o.settings; });
 }
 
-// "rmse=0.01,flip=0.05", added to the limits there are.
-void add_limits(Options& options, Name name, Text text)
+OptionRow of_comparison(unsigned verbs, std::string_view name)
 {
-    for (const std::string& part : parse_list(name, text)) {
-        const auto [metric, value] = parse_definition(name, part);
-        parse_word(name, metric, {"mse", "rmse", "relmse", "mae", "max", "psnr", "flip"});
-        const double limit = parse_double(fmt::format("{} {}", name, metric), value, -1e30, 1e30);
-        for (const Threshold& other : options.compare.how.thresholds)
-            if (other.metric == metric) throw UsageError(fmt::format("{} {} is given twice", name, metric));
-        options.compare.how.thresholds.push_back({metric, limit});
-    }
+    return setting<CompareSettings>(Topic::verdict, verbs, name,
+                                    [](Options& o) -> CompareSettings& { return o.compare.how; });
 }
-
-void check_aovs(Name name, const std::vector<std::string>& aovs)
-{
-    try {
-        layers_of(aovs);
-    } catch (const Error& problem) {
-        throw UsageError(fmt::format("{}: {}", name, problem.what()));
-    }
-}
-
-// "Embree instruction set: sse2, sse4.2, avx, avx2 or avx512 (default avx2)", on the processors that have these.
-std::string words_of_isa()
-{
-    std::string words = "Embree instruction set:\n";
-    const std::vector<std::string_view> names = instruction_set_names();
-    for (std::size_t i = 0; i < names.size(); ++i) {
-        if (i > 0) words += i + 1 < names.size() ? ", " : " or ";
-        words += names[i];
-    }
-    return fmt::format("{} (default {})", words, default_instruction_set().name);
-}
-const std::string isa_help = words_of_isa();
 
 // Every option, in the order of --help.
-using OptionTable = OptionRow[]; // clang-format gets lost in the declaration without it
-const OptionTable rows = {
-    {Topic::output, Effect::run, rendering | merge_only, "-o,--output", "FILE",
-     "write this image: .exr, .hdr, .tif, .png or .jpg;\n"
-     "may be repeated (default SCENE_SPP.exr and .png)",
-     [](Options& o, Name, Text t) { o.outputs.push_back(t); }, true},
-    {Topic::output, Effect::picture, render_only, "--exposure", "EV",
-     "multiply .png and .jpg by 2^EV (default 0)",
-     [](Options& o, Name n, Text t) { o.exposure = parse_number(n, t, -100.f, 100.f); }},
-    {Topic::output, Effect::picture, render_only, "--no-variance", "",
-     "omit the error bars from .exr files: variance.R,\n"
-     "variance.G, variance.B and contributing",
-     [](Options& o, Name, Text) { o.variance = false; }},
-    {Topic::output, Effect::run, rendering | merge_only | test_only | compare_only | agree_or_race, "--json",
-     "FILE", "write a report of the run; - is standard output", [](Options& o, Name, Text t) { o.json = t; }},
-    {Topic::output, Effect::run, batch_only, "--out", "DIR",
-     "directory for images and reports\n"
-     "(default batch/SUITE)",
-     [](Options& o, Name n, Text t) {
-         if (t.empty()) throw UsageError(fmt::format("{} needs a directory", n));
-         o.batch.directory = t;
-     }},
-    {Topic::output, Effect::run, batch_only, "--update", "",
-     "make the references instead of comparing with them",
-     [](Options& o, Name, Text) { o.batch.update = true; }},
-    {Topic::output, Effect::run, compare_only, "--diff", "FILE",
-     "write the difference in false colours, with a scale",
-     [](Options& o, Name, Text t) { o.compare.difference = t; }},
-    {Topic::output, Effect::run, compare_only, "--diff-of", "WHAT",
-     "error: the largest |A - B| of the channels (default);\nor flip",
-     [](Options& o, Name n, Text t) {
-         o.compare.difference_is_flip = parse_word(n, t, {"error", "flip"}) == "flip";
-     }},
+std::vector<OptionRow> make_rows()
+{
+    return {
+        {Topic::output, rendering | merge_only, "-o,--output", "FILE",
+         "write this image: .exr, .hdr, .tif, .png or .jpg;\n"
+         "may be repeated (default SCENE_SPP.exr and .png)",
+         [](Options& o, Name, Text t) { o.outputs.push_back(t); }, true},
+        of_picture(Topic::output, render_only, "exposure"),
+        of_picture(Topic::output, render_only, "no-variance"),
+        {Topic::output, rendering | merge_only | test_only | compare_only | agree_or_race, "--json", "FILE",
+         "write a report of the run; - is standard output", [](Options& o, Name, Text t) { o.json = t; }},
+        {Topic::output, batch_only, "--out", "DIR", "directory for images and reports\n(default batch/SUITE)",
+         [](Options& o, Name n, Text t) {
+             if (t.empty()) throw UsageError(fmt::format("{} needs a directory", n));
+             o.batch.directory = t;
+         }},
+        {Topic::output, batch_only, "--update", "", "make the references instead of comparing with them",
+         [](Options& o, Name, Text) { o.batch.update = true; }},
+        {Topic::output, compare_only, "--diff", "FILE", "write the difference in false colours, with a scale",
+         [](Options& o, Name, Text t) { o.compare.difference = t; }},
+        {Topic::output, compare_only, "--diff-of", "WHAT",
+         "error: the largest |A - B| of the channels (default);\nor flip",
+         [](Options& o, Name n, Text t) {
+             o.compare.difference_is_flip = parse_word(n, t, {"error", "flip"}) == "flip";
+         }},
 
-    {Topic::state, Effect::run, render_only | merge_only, "--checkpoint", "FILE",
-     "write checkpoints to this .exr file, to resume from",
-     [](Options& o, Name n, Text t) {
-         if (t.empty()) throw UsageError(fmt::format("{} needs a file name", n));
-         o.checkpoint.file = t;
-     }},
-    {Topic::state, Effect::run, render_only, "--checkpoint-every", "T",
-     "checkpoint interval: 90, 90s, 10m or 2h (default 60s)",
-     [](Options& o, Name n, Text t) { o.checkpoint.every_seconds = parse_duration(n, t); }},
-    {Topic::state, Effect::run, render_only, "--resume", "", "resume from the checkpoint, if it exists",
-     [](Options& o, Name, Text) { o.checkpoint.resume = true; }},
-    {Topic::state, Effect::run, render_only, "--part", "K/N",
-     "render part K of N only, K from 1 to N; -o is then a\n"
-     "file for 'renderer merge', and the checkpoint",
-     [](Options& o, Name n, Text t) {
-         const auto [index, count] = parse_part(n, t);
-         if (!o.part) o.part.emplace();
-         o.part->index = index - 1;
-         o.part->count = count;
-     }},
-    {Topic::state, Effect::run, render_only, "--part-by", "WHAT", "split by tiles or samples (default tiles)",
-     [](Options& o, Name n, Text t) {
-         o.part_by = parse_word(n, t, {"tiles", "samples"}) == "tiles" ? PartBy::tiles : PartBy::samples;
-     }},
-    {Topic::state, Effect::run, merge_only, "--allow-missing", "", "merge even if samples are missing",
-     [](Options& o, Name, Text) { o.allow_missing = true; }},
+        {Topic::state, render_only | merge_only, "--checkpoint", "FILE",
+         "write checkpoints to this .exr file, to resume from",
+         [](Options& o, Name n, Text t) {
+             if (t.empty()) throw UsageError(fmt::format("{} needs a file name", n));
+             o.checkpoint.file = t;
+         }},
+        {Topic::state, render_only, "--checkpoint-every", "T",
+         "checkpoint interval: 90, 90s, 10m or 2h (default 60s)",
+         [](Options& o, Name n, Text t) { o.checkpoint.every_seconds = parse_duration(n, t); }},
+        {Topic::state, render_only, "--resume", "", "resume from the checkpoint, if it exists",
+         [](Options& o, Name, Text) { o.checkpoint.resume = true; }},
+        {Topic::state, render_only, "--part", "K/N",
+         "render part K of N only, K from 1 to N; -o is then a\n"
+         "file for 'renderer merge', and the checkpoint",
+         [](Options& o, Name n, Text t) {
+             const auto [index, count] = parse_part(n, t);
+             if (!o.part) o.part.emplace();
+             o.part->index = index - 1;
+             o.part->count = count;
+         }},
+        {Topic::state, render_only, "--part-by", "WHAT", "split by tiles or samples (default tiles)",
+         [](Options& o, Name n, Text t) {
+             o.part_by = parse_word(n, t, {"tiles", "samples"}) == "tiles" ? PartBy::tiles : PartBy::samples;
+         }},
+        {Topic::state, merge_only, "--allow-missing", "", "merge even if samples are missing",
+         [](Options& o, Name, Text) { o.merge.allow_missing = true; }},
 
-    {Topic::picture, Effect::samples, both | agree_or_race, "--spp", "N",
-     "samples per pixel (default: the scene's)",
-     [](Options& o, Name n, Text t) { o.load.samples_per_pixel = parse_integer(n, t, 1, film_max_samples); }},
-    {Topic::picture, Effect::samples, both | test_only | agree_or_race, "--seed", "N",
-     "seed of the random numbers, 64 bits (default 0)",
-     [](Options& o, Name n, Text t) { o.render.seed = parse_integer(n, t, 0, UINT64_MAX); }},
-    {Topic::picture, Effect::samples, loads_scene, "--size", "WxH", "resolution (default: the scene's)",
-     [](Options& o, Name n, Text t) { o.load.resolution = parse_size(n, t); }},
-    {Topic::picture, Effect::picture, render_only, "--crop", "X,Y,W,H",
-     "render this window only; same bits as in the full\n"
-     "image",
-     [](Options& o, Name n, Text t) { o.render.crop = parse_rectangle(n, t); }},
-    {Topic::picture, Effect::picture, render_only, "--aov", "NAME,...",
-     "add layers to .exr files: albedo, normal, depth and\nothers (docs/aovs.md)",
-     [](Options& o, Name n, Text t) {
-         o.render.aovs = parse_list(n, t);
-         check_aovs(n, o.render.aovs);
-     }},
-    {Topic::picture, Effect::samples, both | check_only, "--integrator", "TYPE",
-     "use this integrator instead of the scene's, with\n"
-     "default parameters",
-     [](Options& o, Name, Text t) { o.load.integrator = t; }},
-    {Topic::picture, Effect::samples, both, "--sampler", "TYPE", "use this sampler instead of the scene's",
-     [](Options& o, Name, Text t) { o.load.sampler = t; }},
-    {Topic::picture, Effect::run, agree_or_race, "--integrators", "TYPE,...",
-     "estimators (default path,path_nee,path_mis)",
-     [](Options& o, Name n, Text t) { o.estimators.integrators = parse_list(n, t); }},
-    {Topic::picture, Effect::run, agree_or_race, "--samplers", "TYPE,...",
-     "use each estimator with each of these samplers\n"
-     "(default: the scene's)",
-     [](Options& o, Name n, Text t) { o.estimators.samplers = parse_list(n, t); }},
-    {Topic::picture, Effect::run, race_only, "--rounds", "N",
-     "images per estimator, of --spp samples each\n"
-     "(default 16)",
-     [](Options& o, Name n, Text t) { o.race.rounds = parse_integer(n, t, 3, 10000); }},
-    {Topic::picture, Effect::picture, render_only | agree_or_race, "--time", "T",
-     "time limit in all: 90, 90s, 10m or 2h; rendering\n"
-     "takes at most --spp samples",
-     [](Options& o, Name n, Text t) { o.stop.seconds = parse_duration(n, t); }},
-    {Topic::picture, Effect::picture, render_only, "--target-error", "E",
-     "stop when the expected RMSE is below E times the mean\n"
-     "of the image (upper end of the 95 % interval)",
-     [](Options& o, Name n, Text t) { o.stop.relative_error = parse_double(n, t, 1e-9, 1e3); }},
+        of_picture(Topic::picture, both | agree_or_race, "spp"),
+        of_picture(Topic::picture, both | test_only | agree_or_race, "seed"),
+        of_picture(Topic::picture, loads_scene, "size"),
+        of_picture(Topic::picture, render_only, "crop"),
+        of_picture(Topic::picture, render_only, "aov"),
+        of_picture(Topic::picture, both | check_only, "integrator"),
+        of_picture(Topic::picture, both, "sampler"),
+        {Topic::picture, agree_or_race, "--integrators", "TYPE,...",
+         "estimators (default path,path_nee,path_mis)",
+         [](Options& o, Name n, Text t) { o.race.integrators = parse_list(n, t); }},
+        {Topic::picture, agree_or_race, "--samplers", "TYPE,...",
+         "use each estimator with each of these samplers\n"
+         "(default: the scene's)",
+         [](Options& o, Name n, Text t) { o.race.samplers = parse_list(n, t); }},
+        {Topic::picture, race_only, "--rounds", "N",
+         "images per estimator, of --spp samples each\n"
+         "(default 16)",
+         [](Options& o, Name n, Text t) { o.race.rounds = parse_integer(n, t, 3, 10000); }},
+        of_picture(Topic::picture, render_only | agree_or_race, "time"),
+        of_picture(Topic::picture, render_only, "target-error"),
 
-    {Topic::scene, Effect::samples, loads | batch_only, "-D,--define", "NAME=VALUE",
-     "value of $NAME in the file; may be repeated", define, true},
-    {Topic::scene, Effect::samples, loads, "--dialect", "NAME",
-     "dialect of the scene: auto, plumb, epfl, eth,\nzaragoza or mcgill (default auto)",
-     [](Options& o, Name n, Text t) {
-         o.load.dialect = dialect_from_string(parse_word(n, t, dialect_words()));
-     }},
-    {Topic::scene, Effect::samples, loads, "--emitters", "WHAT", "emitters scatter or absorb incident light",
-     [](Options& o, Name n, Text t) {
-         o.load.emitters_absorb = parse_word(n, t, {"scatter", "absorb"}) == "absorb";
-     }},
-    {Topic::scene, Effect::samples, loads_scene, "--mirror", "on|off", "mirror the image left to right",
-     [](Options& o, Name n, Text t) {
-         o.load.mirrored_view = parse_word(n, t, {"on", "off"}) == "on";
-     }},
-    {Topic::scene, Effect::samples, loads, "--envmap-scale", "X", "multiply environment images by X",
-     [](Options& o, Name n, Text t) { o.load.environment_scale = parse_number(n, t, 0.f, 1e30f); }},
-    {Topic::scene, Effect::samples, loads, "--lenient", "", "unknown parameters are warnings, not errors",
-     [](Options& o, Name, Text) { o.load.lenient = true; }},
+        of_picture(Topic::scene, loads | batch_only, "define"),
+        of_picture(Topic::scene, loads, "dialect"),
+        of_picture(Topic::scene, loads, "emitters"),
+        of_picture(Topic::scene, loads_scene, "mirror"),
+        of_picture(Topic::scene, loads, "envmap-scale"),
+        of_picture(Topic::scene, loads, "lenient"),
 
-    {Topic::scene, Effect::run, rerun_only, "--scene", "FILE", "the path of the scene file",
-     [](Options& o, Name n, Text t) {
-         if (t.empty()) throw UsageError(fmt::format("{} needs a file name", n));
-         o.scene = t;
-     }},
+        {Topic::scene, rerun_only, "--scene", "FILE", "the path of the scene file",
+         [](Options& o, Name n, Text t) {
+             if (t.empty()) throw UsageError(fmt::format("{} needs a file name", n));
+             o.rerun.scene = t;
+         }},
 
-    {Topic::running, Effect::run, batch_only, "--filter", "TEXT",
-     "only images whose names contain this, or match it if\n"
-     "it has * or ?",
-     [](Options& o, Name n, Text t) {
-         if (t.empty()) throw UsageError(fmt::format("{} needs a text", n));
-         o.batch.filter = t;
-     }},
-    {Topic::running, Effect::run, batch_only, "--fail-fast", "", "stop at the first image that does not pass",
-     [](Options& o, Name, Text) { o.batch.fail_fast = true; }},
-    {Topic::running, Effect::run, batch_only, "--force", "", "also render what is up to date",
-     [](Options& o, Name, Text) { o.batch.force = true; }},
-    {Topic::running, Effect::run, rendering | test_only | agree_or_race | batch_only, "-t,--threads", "N",
-     "number of threads (default: all)",
-     [](Options& o, Name n, Text t) { o.render.threads = static_cast<int>(parse_integer(n, t, 1, 1024)); }},
-    {Topic::running, Effect::samples, loads, "--isa", "NAME", isa_help.c_str(),
-     [](Options& o, Name n, Text t) { o.load.instruction_set = parse_word(n, t, instruction_set_names()); }},
-    {Topic::running, Effect::run, loads | rerun_only | merge_only | compare_only | batch_only, "--quiet", "",
-     "print errors only", [](Options& o, Name, Text) { o.quiet = true; }},
-    {Topic::running, Effect::run, loads_scene | rerun_only, "--verbose", "", "print facts about the scene",
-     [](Options& o, Name, Text) { o.verbose = true; }},
+        {Topic::running, batch_only, "--filter", "TEXT",
+         "only images whose names contain this, or match it if\n"
+         "it has * or ?",
+         [](Options& o, Name n, Text t) {
+             if (t.empty()) throw UsageError(fmt::format("{} needs a text", n));
+             o.batch.filter = t;
+         }},
+        {Topic::running, batch_only, "--fail-fast", "", "stop at the first image that does not pass",
+         [](Options& o, Name, Text) { o.batch.fail_fast = true; }},
+        {Topic::running, batch_only, "--force", "", "also render what is up to date",
+         [](Options& o, Name, Text) { o.batch.force = true; }},
+        {Topic::running, rendering | test_only | agree_or_race | batch_only, "-t,--threads", "N",
+         "number of threads (default: all)",
+         [](Options& o, Name n, Text t) { o.threads = static_cast<int>(parse_integer(n, t, 1, 1024)); }},
+        of_picture(Topic::running, loads, "isa"),
+        {Topic::running, loads | rerun_only | merge_only | compare_only | batch_only, "--quiet", "",
+         "print errors only", [](Options& o, Name, Text) { o.quiet = true; }},
+        {Topic::running, loads_scene | rerun_only, "--verbose", "", "print facts about the scene",
+         [](Options& o, Name, Text) { o.verbose = true; }},
 
-    {Topic::path, Effect::run, replay_only, "--pixel", "X,Y", "the pixel, counted from the upper left corner",
-     [](Options& o, Name n, Text t) { o.pixel = parse_pixel(n, t); }},
-    {Topic::path, Effect::run, replay_only, "--sample", "I", "the index of the sample, counted from 0",
-     [](Options& o, Name n, Text t) { o.sample = parse_integer(n, t, 0, UINT64_MAX); }},
+        {Topic::path, replay_only, "--pixel", "X,Y", "the pixel, counted from the upper left corner",
+         [](Options& o, Name n, Text t) { o.replay.pixel = parse_pixel(n, t); }},
+        {Topic::path, replay_only, "--sample", "I", "the index of the sample, counted from 0",
+         [](Options& o, Name n, Text t) { o.replay.sample = parse_integer(n, t, 0, UINT64_MAX); }},
 
-    {Topic::verdict, Effect::run, compare_only | agree_or_race, "--significance", "P",
-     "probability of a false difference (default 0.01)",
-     [](Options& o, Name n, Text t) { o.compare.how.significance = parse_double(n, t, 1e-9, 0.5); }},
-    {Topic::verdict, Effect::run, compare_only, "--layer", "NAME",
-     "compare the channels NAME.* instead of the colours",
-     [](Options& o, Name n, Text t) {
-         if (t.empty()) throw UsageError(fmt::format("{} needs a name", n));
-         o.compare.how.layer = t;
-     }},
-    {Topic::verdict, Effect::run, compare_only, "--exact", "A|B", "this image has no noise",
-     [](Options& o, Name n, Text t) {
-         o.compare.how.exact = parse_word(n, t, {"A", "B"}) == "A" ? Side::a : Side::b;
-     }},
-    {Topic::verdict, Effect::run, compare_only, "--no-verdict", "",
-     "ignore the noise: the limits of --max decide",
-     [](Options& o, Name, Text) { o.compare.how.verdict = false; }},
-    {Topic::verdict, Effect::run, compare_only | agree_or_race, "--fail-percent", "P",
-     "allow P % of the pixels to differ or stay undecided\n"
-     "(default 0)",
-     [](Options& o, Name n, Text t) { o.compare.how.fail_percent = parse_double(n, t, 0.0, 100.0); }},
-    {Topic::verdict, Effect::run, compare_only, "--max", "METRIC=X,...",
-     "fail above these: mse, rmse, relmse, mae, max, flip;\n"
-     "or below: psnr",
-     add_limits, true},
-    {Topic::verdict, Effect::run, compare_only, "--flip", "MODE",
-     "ldr, hdr or none (default: ldr for .png and the like)",
-     [](Options& o, Name n, Text t) {
-         const std::string mode = parse_word(n, t, {"ldr", "hdr", "none"});
-         o.compare.choose_flip = false;
-         o.compare.how.flip = mode == "ldr" ? FlipMode::ldr : mode == "hdr" ? FlipMode::hdr : FlipMode::none;
-     }},
+        of_comparison(compare_only | agree_or_race, "significance"),
+        of_comparison(compare_only, "layer"),
+        of_comparison(compare_only, "exact"),
+        of_comparison(compare_only, "no-verdict"),
+        of_comparison(compare_only | agree_or_race, "fail-percent"),
+        of_comparison(compare_only, "max"),
+        of_comparison(compare_only, "flip"),
 
-    {Topic::about, Effect::run, render_only, "-V,--version", "", "print the version",
-     [](Options& o, Name, Text) { o.version = true; }},
-    {Topic::about, Effect::run, every_verb, "-h,--help", "", "print this",
-     [](Options& o, Name, Text) { o.help = true; }},
-};
+        {Topic::about, render_only, "-V,--version", "", "print the version",
+         [](Options& o, Name, Text) { o.version = true; }},
+        {Topic::about, every_verb, "-h,--help", "", "print this",
+         [](Options& o, Name, Text) { o.help = true; }},
+    };
+}
 
 } // namespace
 
@@ -297,6 +205,7 @@ bool OptionRow::goes_with(Verb verb) const
 
 std::span<const OptionRow> option_rows()
 {
+    static const std::vector<OptionRow> rows = make_rows();
     return rows;
 }
 
@@ -314,7 +223,7 @@ std::string help_text(Verb verb)
         if (asked.manual) text += asked.manual();
     }
     const OptionRow* last = nullptr;
-    for (const OptionRow& row : rows) {
+    for (const OptionRow& row : option_rows()) {
         if (!row.goes_with(verb)) continue;
         if (!last || row.topic != last->topic) text += "\n";
         last = &row;

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Every option, in one table: its names, its verbs, its line of --help, and what it does to Options.
+// Every option, in one table: its names, its verbs, its line of --help, and what it does to Options. Those of settings
+// are made of the settings' tables (settings.h).
 
 #include "cli/options.h"
 
+#include <functional>
 #include <span>
 
 namespace plumb {
@@ -12,30 +14,19 @@ namespace plumb {
 // Headings of --help, more or less.
 enum class Topic { output, state, picture, scene, running, path, verdict, about };
 
-// What an option does to a picture. A picture's header keeps the words that change it, and nothing else is taken from a
-// header, which anybody may have written: whoever adds an option decides.
-enum class Effect {
-    undecided, // of no option
-    samples,   // changes the scene, the seed or the samples: `renderer replay` needs it, too
-    picture,   // changes which samples are taken, or how the file keeps them
-    run        // names files to write, or is about this run alone
-};
-
 struct OptionRow {
     Topic topic;
-    Effect effect;
     unsigned verbs;    // a set of verb_bit()
-    const char* names; // "-o,--output": the long one last
-    const char* value; // what --help calls it; empty: takes none
-    const char* help;
-    void (*apply)(Options& options, std::string_view name, const std::string& value); // throws UsageError
+    std::string names; // "-o,--output": the long one last
+    std::string value; // what --help calls it; empty: takes none
+    std::string help;
+    // Throws Error or UsageError. The value of a switch is "true".
+    std::function<void(Options& options, std::string_view name, const std::string& value)> apply;
     bool repeatable = false;
 
     std::string_view long_name() const;
-    bool takes_value() const { return *value != '\0'; }
+    bool takes_value() const { return !value.empty(); }
     bool goes_with(Verb verb) const;
-    bool changes_samples() const { return effect == Effect::samples; }
-    bool changes_picture() const { return effect == Effect::samples || effect == Effect::picture; }
 };
 
 // In the order of --help.

@@ -4,8 +4,10 @@
 #include "cli/option_rows.h"
 #include "cli/text.h"
 #include "cli/verbs.h"
+#include "plumb/base/error.h"
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <fmt/format.h>
 
 namespace plumb {
@@ -95,7 +97,7 @@ void settle_state_file(Options& options)
             throw UsageError(
                 "--part and --checkpoint cannot be used together: the output of a part is its checkpoint");
         if (options.outputs.size() != 1) throw UsageError("--part needs one -o,--output FILE.exr");
-        if (options.stop.seconds || options.stop.relative_error)
+        if (options.settings.stop != StopSettings())
             throw UsageError(
                 "a part is a fixed set of samples: use --part with --spp, not with --time or --target-error");
         checkpoint.file = options.outputs.front();
@@ -128,11 +130,11 @@ void apply(const OptionRow& row, const std::vector<std::string>& values, Options
         if (row.takes_value() && value.starts_with("--"))
             throw UsageError(
                 fmt::format("option '{}' needs a value, and '{}' looks like an option", name, value));
-        row.apply(options, name, value);
-        std::string word = fmt::format(" {}", name);
-        if (row.takes_value()) word += " " + shell_quote(value);
-        if (row.changes_samples()) options.scene_words += word;
-        if (row.changes_picture()) options.picture_words += word;
+        try {
+            row.apply(options, name, row.takes_value() ? value : "true");
+        } catch (const Error& problem) {
+            throw UsageError(problem.what());
+        }
     }
 }
 
@@ -182,7 +184,7 @@ Sorted sort_words(std::vector<std::string> words, const std::vector<const Option
 Options parse_options(std::vector<std::string> words)
 {
     Options options;
-    for (const std::string& word : words) options.all_words += " " + shell_quote(word);
+    for (const std::string& word : words) options.typed += " " + shell_quote(word);
     for (const VerbRow& row : verb_rows())
         if (!words.empty() && !row.name.empty() && words.front() == row.name) options.verb = row.verb;
     const VerbRow& verb = row_of(options.verb);
@@ -194,7 +196,7 @@ Options parse_options(std::vector<std::string> words)
         if (row.goes_with(options.verb)) known.push_back(&row);
     Sorted sorted = sort_words(std::move(words), known);
     options.subjects = std::move(sorted.others);
-    if (!options.subjects.empty()) options.subject = options.subjects.front();
+    if (!options.subjects.empty()) options.scene = options.subject = options.subjects.front();
     for (const auto& [row, values] : sorted.given) apply(*row, values, options);
     reject_words(options, first, sorted.unknown);
     if (options.help || options.version) return options;
@@ -212,28 +214,13 @@ Options parse_options(std::vector<std::string> words)
                 std::none_of(sorted.given.begin(), sorted.given.end(),
                              [row](const auto& given) { return given.first == row; }))
                 throw UsageError(fmt::format("replay needs {} {}", row->names, row->value));
+    options.one_pixel = options.verb == Verb::replay;
     if (options.verb == Verb::render) settle_state_file(options);
     if (options.verb == Verb::merge && options.outputs.empty() && options.checkpoint.file.empty())
         throw UsageError(
             "merge needs -o,--output IMAGE, or --checkpoint FILE to merge the result with more parts");
     if (options.quiet && options.verbose) throw UsageError("--quiet and --verbose cannot be used together");
     check_outputs(options);
-    return options;
-}
-
-Options options_of_header(const std::string& scene, const std::vector<std::string>& words)
-{
-    std::vector<const OptionRow*> known;
-    for (const OptionRow& row : option_rows())
-        if (row.changes_picture()) known.push_back(&row);
-    Options options;
-    options.subjects = {scene};
-    options.subject = scene;
-    const Sorted sorted = sort_words(words, known);
-    for (const auto& others : {sorted.unknown, sorted.others})
-        if (!others.empty())
-            throw UsageError(fmt::format("'{}' is not an option that changes the image", others.front()));
-    for (const auto& [row, values] : sorted.given) apply(*row, values, options);
     return options;
 }
 

@@ -2,9 +2,9 @@
 #include "cli/outputs.h"
 
 #include "cli/console.h"
-#include "cli/options.h"
 #include "cli/text.h"
 #include "cli/text_file.h"
+#include "cli/usage_error.h"
 
 #include "base/parallel.h"
 #include "base/temporary_file.h"

@@ -4,6 +4,8 @@
 #include "cli/text.h"
 
 #include "plumb/base/error.h"
+#include "plumb/model/sampler.h"
+#include "plumb/settings/settings_header.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -40,6 +42,19 @@ std::string value_text(const Metadata& header, std::string_view name)
     return "none";
 }
 
+// Which settings are not the same, of headers whose inputs are.
+std::vector<std::string> setting_changes(const Metadata& then, const Metadata& now)
+{
+    std::vector<std::string> changes;
+    try {
+        changes = differences(settings_of_header(then), settings_of_header(now), Effect::samples);
+    } catch (const Error&) {
+        // whoever reads the settings says so
+    }
+    if (changes.empty()) changes.emplace_back("the settings differ");
+    return changes;
+}
+
 } // namespace
 
 std::string header_text(const Metadata& header, std::string_view name)
@@ -70,18 +85,18 @@ std::optional<std::uint64_t> header_samples(const Metadata& header, std::string_
         std::find_if(header.begin(), header.end(), [&](const auto& entry) { return entry.first == name; });
     if (there == header.end()) return std::nullopt;
     const int* const samples = std::get_if<int>(&there->second);
-    if (!samples || *samples < 1 || static_cast<std::uint64_t>(*samples) > film_max_samples)
+    if (!samples || *samples < 1 || static_cast<std::uint64_t>(*samples) > max_samples_per_pixel)
         throw Error(fmt::format("the header of '{}' is invalid: {} must be an integer from 1 to {}, not {}",
-                                file, name, film_max_samples, value_text(header, name)));
+                                file, name, max_samples_per_pixel, value_text(header, name)));
     return static_cast<std::uint64_t>(*samples);
 }
 
-Options header_options(const Metadata& header, const std::string& scene, const std::string& file)
+RenderSettings header_settings(const Metadata& header, const std::string& file)
 {
     try {
-        return options_of_header(scene, shell_split(header_text(header, "plumb:arguments")));
-    } catch (const UsageError& problem) {
-        throw Error(fmt::format("the header of '{}' is invalid: plumb:arguments: {}", file, problem.what()));
+        return settings_of_header(header);
+    } catch (const Error& problem) {
+        throw Error(fmt::format("the header of '{}' is invalid: {}", file, problem.what()));
     }
 }
 
@@ -138,7 +153,7 @@ std::vector<std::string> sample_changes(const Metadata& then, const Metadata& no
     if (const int was = language_of(then), is = language_of(now); was != is)
         changes.push_back(fmt::format("the version of the scene language was {} and is {}", was, is));
     if (changes.empty() && value_text(then, "plumb:inputHash") != value_text(now, "plumb:inputHash"))
-        changes.emplace_back("the options differ");
+        changes = setting_changes(then, now);
     return changes;
 }
 

@@ -3,8 +3,10 @@
 
 // Whether two headers (header.h) tell of the same work.
 
-#include "cli/options.h"
+#include "plumb/image/image.h"
+#include "plumb/settings/render_settings.h"
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -27,8 +29,8 @@ int language_of(const Metadata& header);
 std::optional<std::uint64_t> header_samples(const Metadata& header, std::string_view name,
                                             const std::string& file);
 
-// The options that made the picture, of `scene`: those that change a picture (option_rows.h), and no other.
-Options header_options(const Metadata& header, const std::string& scene, const std::string& file);
+// The settings that made the picture: settings_header.h.
+RenderSettings header_settings(const Metadata& header, const std::string& file);
 
 // Whether the inputs are told by the hashes that Plumb 0.1 wrote: they are not comparable with SHA-256.
 bool has_old_hashes(const Metadata& header);

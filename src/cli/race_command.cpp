@@ -33,34 +33,35 @@ struct Result {
     std::optional<Ratio> efficiency; // over that of the best
 };
 
-std::vector<Racer> load_racers(const Options& options)
+std::vector<Racer> load_racers(const RaceRequest& request)
 {
     std::vector<Racer> racers;
-    for (const Estimator& estimator : estimators_of(options))
-        racers.push_back({estimator.name(), load_for(estimator, options, racers.empty()), {}, {}});
+    for (const Estimator& estimator : estimators_of(request, "race"))
+        racers.push_back({estimator.name(), load_for(estimator, request, racers.empty()), {}, {}});
     return racers;
 }
 
 // Of each picture. By --time, the power of two that makes all rounds of all racers take about that long: powers of two suit
 // sequences of low discrepancy.
-std::uint64_t samples_of_a_picture(const std::vector<Racer>& racers, const Options& options)
+std::uint64_t samples_of_a_picture(const std::vector<Racer>& racers, const RaceRequest& request)
 {
-    if (!options.stop.seconds) return racers.front().scene.job.sampler->samples_per_pixel();
+    if (!request.settings.stop.seconds) return racers.front().scene.job.sampler->samples_per_pixel();
     double seconds = 0.0;
-    for (const Racer& racer : racers) seconds += seconds_per_sample(racer.scene.job, options.render);
-    const double samples = *options.stop.seconds / (seconds * static_cast<double>(options.race.rounds));
+    for (const Racer& racer : racers)
+        seconds += seconds_per_sample(racer.scene.job, render_options(request.settings, request.threads));
+    const double samples = *request.settings.stop.seconds / (seconds * static_cast<double>(request.rounds));
     return std::bit_floor(
         static_cast<std::uint64_t>(std::clamp(samples, 2.0, static_cast<double>(film_max_samples))));
 }
 
 // In turn, so that a machine whose speed drifts favours none. Every picture has a seed of its own.
-void run(std::vector<Racer>& racers, std::uint64_t samples_per_pixel, const Options& options)
+void run(std::vector<Racer>& racers, std::uint64_t samples_per_pixel, const RaceRequest& request)
 {
-    RenderOptions how = options.render;
+    RenderOptions how = render_options(request.settings, request.threads);
     how.samples_per_pixel = samples_per_pixel;
-    for (std::uint64_t round = 0; round < options.race.rounds; ++round) {
+    for (std::uint64_t round = 0; round < request.rounds; ++round) {
         for (Racer& racer : racers) {
-            ProgressDisplay display(options.quiet);
+            ProgressDisplay display(request.quiet);
             const RenderState result =
                 render(racer.scene.job, how, [&](const Progress& progress) { display.show(progress); });
             racer.seconds.push_back(result.seconds);
@@ -146,13 +147,13 @@ std::string table_text(const std::vector<Result>& results, std::uint64_t samples
     return text;
 }
 
-std::string race_json(const Options& options, const std::vector<Result>& results,
+std::string race_json(const RaceRequest& request, const std::vector<Result>& results,
                       const std::vector<Pair>& pairs, std::uint64_t samples_per_pixel)
 {
     JsonWriter json;
     json.begin_object();
-    write_verdict(json, options, pairs);
-    json.integer("rounds", options.race.rounds);
+    write_verdict(json, request, pairs);
+    json.integer("rounds", request.rounds);
     json.integer("spp", samples_per_pixel);
     json.begin_array("estimators");
     for (const Result& result : results) {
@@ -199,29 +200,29 @@ Exit code: 0 they agree, 1 the scene is wrong, 2 wrong usage, 3 they differ,
 )";
 }
 
-int race_command(const Options& options)
+int race_command(const RaceRequest& request)
 {
-    std::vector<Racer> racers = load_racers(options);
-    check_outputs({}, options.json);
-    const std::uint64_t samples_per_pixel = samples_of_a_picture(racers, options);
-    run(racers, samples_per_pixel, options);
+    std::vector<Racer> racers = load_racers(request);
+    check_outputs({}, request.json);
+    const std::uint64_t samples_per_pixel = samples_of_a_picture(racers, request);
+    run(racers, samples_per_pixel, request);
 
     std::vector<Estimate> means;
     for (const Racer& racer : racers)
-        means.push_back({racer.name, samples_per_pixel * options.race.rounds, mean_picture(racer.pictures)});
-    const std::vector<Pair> pairs = compare_pairs(means, options.compare.how);
+        means.push_back({racer.name, samples_per_pixel * request.rounds, mean_picture(racer.pictures)});
+    const std::vector<Pair> pairs = compare_pairs(means, request.how);
     const std::vector<Result> results = rank(racers, means);
     const CompareOutcome outcome = outcome_of(pairs);
-    if (!options.quiet && options.json != "-") {
-        print_output(fmt::format("{}: {} rounds of {} samples per pixel\n", visible_text(options.subject),
-                                 options.race.rounds, samples_per_pixel));
+    if (!request.quiet && request.json != "-") {
+        print_output(fmt::format("{}: {} rounds of {} samples per pixel\n", visible_text(request.scene),
+                                 request.rounds, samples_per_pixel));
         print_output(table_text(results, samples_per_pixel));
         for (const Pair& pair : pairs) print_output(pair_text(pair));
         print_output(fmt::format("{}\n", verdict_of(outcome)));
         if (outcome == CompareOutcome::undecided) print_output(advice(means, pairs));
     }
-    if (!options.json.empty())
-        write_json(options.json, race_json(options, results, pairs, samples_per_pixel));
+    if (!request.json.empty())
+        write_json(request.json, race_json(request, results, pairs, samples_per_pixel));
     return exit_code_of(outcome);
 }
 

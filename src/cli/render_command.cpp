@@ -34,17 +34,17 @@ std::vector<std::filesystem::path> paths_of(const std::vector<InputFile>& inputs
     return paths;
 }
 
-std::vector<std::string> default_outputs(const Options& options, const LoadedScene& scene)
+std::vector<std::string> default_outputs(const RenderRequest& request, const LoadedScene& scene)
 {
-    const std::string stem = std::filesystem::path(options.subject).stem().string();
-    const bool fixed =
-        options.load.samples_per_pixel || !(options.stop.seconds || options.stop.relative_error);
+    const std::string stem = std::filesystem::path(request.scene).stem().string();
+    const bool fixed = request.settings.samples.per_pixel ||
+                       !(request.settings.stop.seconds || request.settings.stop.relative_error);
     const std::string name =
         fixed ? fmt::format("{}_{}", stem, scene.job.sampler->samples_per_pixel()) : stem;
     return {name + ".exr", name + ".png"};
 }
 
-void log_summary(const Report& report, const Options& options)
+void log_summary(const Report& report, const RenderRequest& request)
 {
     const Evidence& evidence = report.evidence;
     print_log(fmt::format("{}: {} samples in {}, {}", list_text(report.outputs),
@@ -59,109 +59,109 @@ void log_summary(const Report& report, const Options& options)
         print_log(
             fmt::format("warning: the image is black, although there {}; 'renderer check {}' may say why",
                         report.lights == 1 ? "is a light" : fmt::format("are {} lights", report.lights),
-                        shell_quote(options.subject)));
+                        shell_quote(request.scene)));
     if (evidence.left_out.count == 0) return;
     const LeftOut::Sample& first = evidence.left_out.first;
     print_log(fmt::format("warning: {} samples were discarded, the first is {}; to see its path:",
                           evidence.left_out.count, left_out_text(first)));
-    print_log(fmt::format("    renderer replay {} --pixel {},{} --sample {}{}", shell_quote(options.subject),
-                          first.pixel.x, first.pixel.y, first.index, options.scene_words));
+    print_log(fmt::format("    renderer replay {} --pixel {},{} --sample {}{}", shell_quote(request.scene),
+                          first.pixel.x, first.pixel.y, first.index, replay_options_text(request.settings)));
 }
 
 // What to do after a signal.
-void log_interruption(const Options& options, const SampleSet::Range& samples)
+void log_interruption(const RenderRequest& request, const SampleSet::Range& samples)
 {
-    const bool can_go_on = !options.checkpoint.file.empty();
+    const bool can_go_on = !request.checkpoint.file.empty();
     print_log(fmt::format("interrupted with {} to {} samples per pixel; {}", samples.least, samples.most,
                           can_go_on ? "to resume:" : "cannot be resumed without --checkpoint"));
-    if (can_go_on)
-        print_log("    renderer" + options.all_words + (options.checkpoint.resume ? "" : " --resume"));
+    if (can_go_on) print_log("    renderer" + request.typed + (request.checkpoint.resume ? "" : " --resume"));
 }
 
-std::vector<std::string> images_of(const Options& options, const LoadedScene& scene)
+std::vector<std::string> images_of(const RenderRequest& request, const LoadedScene& scene)
 {
-    if (options.part) return {};
-    return options.outputs.empty() ? default_outputs(options, scene) : options.outputs;
+    if (request.part) return {};
+    return request.outputs.empty() ? default_outputs(request, scene) : request.outputs;
 }
 
-std::vector<std::string> with_checkpoint(std::vector<std::string> images, const Options& options)
+std::vector<std::string> with_checkpoint(std::vector<std::string> images, const RenderRequest& request)
 {
-    if (!options.checkpoint.file.empty()) images.push_back(options.checkpoint.file);
+    if (!request.checkpoint.file.empty()) images.push_back(request.checkpoint.file);
     return images;
 }
 
 // Hours of work are not to be written over.
-void keep_checkpoint(const Options& options)
+void keep_checkpoint(const RenderRequest& request)
 {
-    const std::string& file = options.checkpoint.file;
-    if (file.empty() || options.checkpoint.resume) return;
+    const std::string& file = request.checkpoint.file;
+    if (file.empty() || request.checkpoint.resume) return;
     if (const auto there = generation_there(file))
         throw Error(
             fmt::format("'{}' already exists; pass --resume to continue it, or remove it", there->string()));
 }
 
 // All that a run writes to.
-std::vector<std::string> files_written(const std::vector<std::string>& images, const Options& options)
+std::vector<std::string> files_written(const std::vector<std::string>& images, const RenderRequest& request)
 {
-    std::vector<std::string> files = with_checkpoint(images, options);
-    if (!options.checkpoint.file.empty())
-        files.push_back(previous_generation(options.checkpoint.file).string());
+    std::vector<std::string> files = with_checkpoint(images, request);
+    if (!request.checkpoint.file.empty())
+        files.push_back(previous_generation(request.checkpoint.file).string());
     return files;
 }
 
 // The picture of a run with its evidence, into all files.
-void write_pictures_of(const RenderRun& run, const Evidence& evidence, const Options& options,
+void write_pictures_of(const RenderRun& run, const Evidence& evidence, const RenderRequest& request,
                        const std::vector<std::string>& files, const Metadata& header)
 {
-    Image image = run.state.film.develop(options.variance ? Channels::color_and_evidence : Channels::color);
+    Image image = run.state.film.develop(request.settings.output.error_bars ? Channels::color_and_evidence
+                                                                            : Channels::color);
     image.metadata = header;
     const Metadata rest = evidence_header(evidence);
     image.metadata.insert(image.metadata.end(), rest.begin(), rest.end());
-    write_pictures(files, image, options.exposure, packing_of(evidence),
-                   std::filesystem::path(options.checkpoint.file).parent_path());
+    write_pictures(files, image, request.settings.output.exposure, packing_of(evidence),
+                   std::filesystem::path(request.checkpoint.file).parent_path());
 }
 
 } // namespace
 
-int render_command(const Options& options)
+int render_command(const RenderRequest& request)
 {
-    keep_checkpoint(options);
-    check_outputs(files_written(options.part ? std::vector<std::string>() : options.outputs, options),
-                  options.json);
-    return log_rendering(options, render_and_write(options, load_and_log(options)));
+    keep_checkpoint(request);
+    check_outputs(files_written(request.part ? std::vector<std::string>() : request.outputs, request),
+                  request.json);
+    return log_rendering(request, render_and_write(request, load_and_log(request)));
 }
 
-Rendered render_and_write(const Options& options, const LoadedScene& scene)
+Rendered render_and_write(const RenderRequest& request, const LoadedScene& scene)
 {
     const Stopwatch since_loaded;
-    const std::vector<std::string> images = images_of(options, scene);
-    const std::vector<std::string> outputs = with_checkpoint(images, options);
-    const std::vector<std::string> written = files_written(images, options);
-    if (options.outputs.empty()) check_outputs(written, options.json);
-    refuse_overwriting_inputs(KeptFiles(paths_of(scene.inputs)), written, options.json,
+    const std::vector<std::string> images = images_of(request, scene);
+    const std::vector<std::string> outputs = with_checkpoint(images, request);
+    const std::vector<std::string> written = files_written(images, request);
+    if (request.outputs.empty()) check_outputs(written, request.json);
+    refuse_overwriting_inputs(KeptFiles(paths_of(scene.inputs)), written, request.json,
                               "the scene reads this file; write to another");
 
-    const Metadata header = scene_header(options, scene);
-    const Metadata work = work_header(options, scene);
-    const bool has_checkpoint = !options.checkpoint.file.empty();
+    const Metadata header = scene_header(request, scene);
+    const Metadata work = work_header(request, scene);
+    const bool has_checkpoint = !request.checkpoint.file.empty();
     std::optional<InterruptGuard> guard(std::in_place,
                                         has_checkpoint ? Interruption::by_manager : Interruption::by_hand);
-    const RenderRun run = run_rendering(options, scene, work);
+    const RenderRun run = run_rendering(request, scene, work);
     if (!has_checkpoint) guard.reset(); // else until it is written
 
     // Whoever sends a signal does not wait long: checkpoint and pictures are written at the same time.
     const Stopwatch writing;
     // In another thread if there is one to be had.
     std::future<void> saving = std::async(std::launch::async | std::launch::deferred, [&] {
-        if (has_checkpoint) save_run(options, scene, run.state, run.stop, work);
+        if (has_checkpoint) save_run(request, scene, run.state, run.stop, work);
     });
-    Report report = make_report(options, scene, run.state,
+    Report report = make_report(request, scene, run.state,
                                 make_evidence(make_ledger(scene.job, scene.dialect), run.state, run.stop));
     report.outputs = outputs;
     std::vector<std::string> problems;
     try {
-        if (!images.empty() && (run.signal == 0 || options.keep_interrupted))
-            write_pictures_of(run, report.evidence, options, images, header);
+        if (!images.empty() && (run.signal == 0 || request.keep_interrupted))
+            write_pictures_of(run, report.evidence, request, images, header);
     } catch (const Error& error) {
         problems.emplace_back(error.what());
     }
@@ -175,15 +175,15 @@ Rendered render_and_write(const Options& options, const LoadedScene& scene)
     report.write_seconds = writing.seconds();
     report.total_seconds = scene.parse_seconds + scene.build_seconds + since_loaded.seconds();
     note_machine(report);
-    if (!options.json.empty()) write_json(options.json, report_json(report));
+    if (!request.json.empty()) write_json(request.json, report_json(report));
     return {std::move(report), run.state.taken.samples_per_pixel(run.state.film.window()), run.signal};
 }
 
-int log_rendering(const Options& options, const Rendered& rendered)
+int log_rendering(const RenderRequest& request, const Rendered& rendered)
 {
-    if (!options.quiet) log_summary(rendered.report, options);
+    if (!request.quiet) log_summary(rendered.report, request);
     if (rendered.signal == 0) return exit_code::done;
-    log_interruption(options, rendered.samples);
+    log_interruption(request, rendered.samples);
     return exit_code::signal + rendered.signal;
 }
 

@@ -38,12 +38,12 @@ private:
     std::atomic<Clock::rep> next_;
 };
 
-StopRules stop_rules(const Options& options, const LoadedScene& scene)
+StopRules stop_rules(const RenderRequest& request, const LoadedScene& scene)
 {
-    StopRules rules{render_samples(scene.job, options.render), options.stop.seconds,
-                    options.stop.relative_error};
+    StopRules rules{render_samples(scene.job, render_options(request.settings, request.threads)),
+                    request.settings.stop.seconds, request.settings.stop.relative_error};
     const bool other_rule = rules.seconds || rules.relative_error;
-    if (!other_rule || options.load.samples_per_pixel) return rules;
+    if (!other_rule || request.settings.samples.per_pixel) return rules;
     if (scene.job.sampler->depends_on_total())
         throw Error(
             fmt::format("the sampler '{}' depends on the total number of samples per pixel: with --time or "
@@ -55,22 +55,22 @@ StopRules stop_rules(const Options& options, const LoadedScene& scene)
 
 class Runner {
 public:
-    Runner(const Options& options, const LoadedScene& scene, const Metadata& header)
-        : options_(options),
+    Runner(const RenderRequest& request, const LoadedScene& scene, const Metadata& header)
+        : request_(request),
           scene_(scene),
           header_(header),
-          rules_(stop_rules(options, scene)),
-          window_(render_window(scene.job, options.render)),
+          rules_(stop_rules(request, scene)),
+          window_(render_window(scene.job, render_options(request.settings, request.threads))),
           resolution_(scene.job.camera->resolution()),
-          timer_(options.checkpoint.every_seconds),
-          rendering_(scene.job, options.render, start())
+          timer_(request.checkpoint.every_seconds),
+          rendering_(scene.job, render_options(request.settings, request.threads), start())
     {}
 
     RenderRun run()
     {
         bool all = false;
         {
-            ProgressDisplay display(options_.quiet);
+            ProgressDisplay display(request_.quiet);
             display_ = &display;
             all = take_all();
         }
@@ -80,20 +80,20 @@ public:
     }
 
 private:
-    bool has_checkpoint() const { return !options_.checkpoint.file.empty(); }
+    bool has_checkpoint() const { return !request_.checkpoint.file.empty(); }
 
     RenderState start() const
     {
-        const std::string& name = options_.checkpoint.file;
-        const ChannelSet layers = layers_of(options_.render.aovs);
+        const std::string& name = request_.checkpoint.file;
+        const ChannelSet layers = layers_of(request_.settings.view.aovs);
         std::optional<StateFile> file;
-        if (options_.checkpoint.resume) {
+        if (request_.checkpoint.resume) {
             const Metadata header = with_program(header_);
             file = load_checkpoint(name, header);
             keep_previous(name, header);
         }
         if (!file) {
-            if (options_.checkpoint.resume && !options_.quiet)
+            if (request_.checkpoint.resume && !request_.quiet)
                 print_log(fmt::format("'{}' does not exist yet; starting with the first sample", name));
             return {Film(window_, resolution_.x, resolution_.y, layers), {}, {}, {}};
         }
@@ -106,7 +106,7 @@ private:
         if (const SampleSet more = file->state.taken - most_wanted(); !more.empty())
             throw Error(fmt::format("cannot resume from '{}': it has samples that were not requested: {}",
                                     name, more.text()));
-        if (!options_.quiet)
+        if (!request_.quiet)
             print_log(fmt::format("resuming from '{}', which has {} samples", name,
                                   count_text(file->state.taken.count())));
         return std::move(file->state);
@@ -115,8 +115,8 @@ private:
     // What is to be taken if no other rule stops it.
     SampleSet most_wanted() const
     {
-        if (options_.repeat) return options_.repeat->samples;
-        if (const auto& part = options_.part)
+        if (request_.repeat) return request_.repeat->samples;
+        if (const auto& part = request_.part)
             return part_of(window_, rules_.samples_per_pixel, part->by, part->index, part->count);
         return SampleSet(SampleBlock{window_, 0, rules_.samples_per_pixel});
     }
@@ -124,8 +124,8 @@ private:
     // False: a signal came.
     bool take_all()
     {
-        if (options_.repeat) stop_ = options_.repeat->stop;
-        if (!options_.repeat && (rules_.seconds || rules_.relative_error)) return take_until_stopped();
+        if (request_.repeat) stop_ = request_.repeat->stop;
+        if (!request_.repeat && (rules_.seconds || rules_.relative_error)) return take_until_stopped();
         return take(most_wanted());
     }
 
@@ -168,7 +168,7 @@ private:
             if (images_.failed()) images_.wait(); // throws: what is rendered could not be written
             if (InterruptGuard::signal() != 0) return false;
             try {
-                save_run(options_, scene_, rendering_.state(), stop_, header_);
+                save_run(request_, scene_, rendering_.state(), stop_, header_);
             } catch (const Error& error) {
                 print_log(fmt::format("warning: {}; rendering continues", error.what()));
             }
@@ -193,7 +193,7 @@ private:
     }
 
     ImageLibrary images_; // loads while the first samples are taken
-    const Options& options_;
+    const RenderRequest& request_;
     const LoadedScene& scene_;
     const Metadata& header_;
     const StopRules rules_;
@@ -208,17 +208,17 @@ private:
 
 } // namespace
 
-RenderRun run_rendering(const Options& options, const LoadedScene& scene, const Metadata& header)
+RenderRun run_rendering(const RenderRequest& request, const LoadedScene& scene, const Metadata& header)
 {
-    return Runner(options, scene, header).run();
+    return Runner(request, scene, header).run();
 }
 
-void save_run(const Options& options, const LoadedScene& scene, const RenderState& state,
+void save_run(const RenderRequest& request, const LoadedScene& scene, const RenderState& state,
               const std::string& stop, Metadata header)
 {
     header = with_program(std::move(header));
     if (!stop.empty()) header.emplace_back("plumb:workStop", stop);
-    save_checkpoint(options.checkpoint.file, state, scene.job.camera->resolution(), header);
+    save_checkpoint(request.checkpoint.file, state, scene.job.camera->resolution(), header);
 }
 
 } // namespace plumb

@@ -3,9 +3,9 @@
 
 // Taking a picture's samples: from a checkpoint or from the start, until a stop rule or a signal says so.
 
-#include "cli/options.h"
+#include "cli/render_request.h"
 
-#include "plumb/render/render.h"
+#include "plumb/scene_file/scene_file.h"
 
 namespace plumb {
 
@@ -17,10 +17,10 @@ struct RenderRun {
 
 // Shows progress. Writes checkpoints as often as the options ask, but for the last; one that cannot be written is a warning.
 // header: work_header() of it. An InterruptGuard must live. Throws Error if it cannot begin.
-RenderRun run_rendering(const Options& options, const LoadedScene& scene, const Metadata& header);
+RenderRun run_rendering(const RenderRequest& request, const LoadedScene& scene, const Metadata& header);
 
 // Writes the checkpoint that the options ask for. stop: as in RenderRun. Throws Error.
-void save_run(const Options& options, const LoadedScene& scene, const RenderState& state,
+void save_run(const RenderRequest& request, const LoadedScene& scene, const RenderState& state,
               const std::string& stop, Metadata header);
 
 } // namespace plumb

@@ -27,14 +27,14 @@ std::string_view kind_text(PathEvent::Kind kind)
 
 } // namespace
 
-int replay_command(const Options& options)
+int replay_command(const ReplayRequest& request)
 {
-    const LoadedScene scene = load_and_log(options);
-    const Vec2i pixel = options.pixel;
-    const ReplayedSample sample = replay(scene.job, options.render.seed, pixel, options.sample);
+    const LoadedScene scene = load_and_log(request);
+    const Vec2i pixel = request.pixel;
+    const ReplayedSample sample = replay(scene.job, request.settings.samples.seed, pixel, request.sample);
 
-    print_output(fmt::format("sample {} of pixel {},{}, seed {}, integrator {}\n", options.sample, pixel.x,
-                             pixel.y, options.render.seed, scene.integrator));
+    print_output(fmt::format("sample {} of pixel {},{}, seed {}, integrator {}\n", request.sample, pixel.x,
+                             pixel.y, request.settings.samples.seed, scene.integrator));
     print_output(fmt::format("raster position {} {}\n\n", sample.raster.x, sample.raster.y));
     for (const PathEvent& event : sample.log)
         print_output(fmt::format("{:<9} {}\n", kind_text(event.kind), event.text));

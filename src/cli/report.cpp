@@ -121,19 +121,19 @@ bool is_black(const Film& film)
 
 } // namespace
 
-Report make_report(const Options& options, const LoadedScene& scene, const RenderState& state,
+Report make_report(const RenderRequest& request, const LoadedScene& scene, const RenderState& state,
                    Evidence evidence)
 {
     Report report;
-    report.scene = options.subject;
+    report.scene = request.scene;
     report.input_hash = scene.input_hash;
     report.dialect = scene.dialect;
     report.integrator = scene.integrator;
     report.sampler = scene.sampler;
     report.noise_is_bound = !scene.job.sampler->is_independent();
-    report.seed = options.render.seed;
+    report.seed = request.settings.samples.seed;
     report.resolution = scene.job.camera->resolution();
-    report.crop = options.render.crop;
+    report.crop = request.settings.view.crop;
     report.triangles = scene.job.scene.triangle_count();
     report.memory = scene.job.scene.memory();
     report.texture_bytes = scene.texture_bytes;
@@ -147,7 +147,7 @@ Report make_report(const Options& options, const LoadedScene& scene, const Rende
     report.render_seconds = state.seconds;
     report.rays = state.rays;
     report.evidence = std::move(evidence);
-    report.threads = render_threads(options.render);
+    report.threads = render_threads(render_options(request.settings, request.threads));
     report.instruction_set = scene.job.scene.options().instruction_set;
     report.embree_version = scene.job.scene.embree_version();
     return report;

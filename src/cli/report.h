@@ -3,8 +3,9 @@
 
 // The report of a run that --json writes: what the header of an image does not say, times and machine included.
 
-#include "cli/options.h"
+#include "cli/render_request.h"
 #include "plumb/render/evidence.h"
+#include "plumb/scene_file/scene_file.h"
 
 namespace plumb {
 
@@ -41,7 +42,7 @@ struct Report {
 };
 
 // All but outputs, times of writing and in total, and what note_machine() fills in.
-Report make_report(const Options& options, const LoadedScene& scene, const RenderState& state,
+Report make_report(const RenderRequest& request, const LoadedScene& scene, const RenderState& state,
                    Evidence evidence);
 void note_machine(Report& report); // peak memory, host and time, now
 

@@ -32,33 +32,35 @@ Metadata read_recipe(const std::string& image_file)
 }
 
 // Where the scene file was: seen from this directory, or from the picture's.
-std::string find_scene(const Options& options, const std::string& scene)
+std::string find_scene(const RerunRequest& run, const std::string& scene)
 {
-    if (!options.scene.empty()) return options.scene;
+    if (!run.scene.empty()) return run.scene;
     // Headers have no absolute paths, unless somebody else has written them.
     if (std::filesystem::path(scene).is_absolute())
         throw Error(fmt::format("the header of '{}' is invalid: plumb:scene is an absolute path, '{}'",
-                                options.subject, scene));
-    const std::filesystem::path beside = std::filesystem::path(options.subject).parent_path() / scene;
+                                run.image, scene));
+    const std::filesystem::path beside = std::filesystem::path(run.image).parent_path() / scene;
     std::error_code ignored;
     for (const std::filesystem::path& path : {std::filesystem::path(scene), beside})
         if (std::filesystem::exists(path, ignored)) return path.string();
     throw Error(fmt::format("scene file '{}' exists neither here nor beside '{}'; pass its path with --scene",
-                            scene, options.subject));
+                            scene, run.image));
 }
 
-// The options that made the picture, with what is said of this run.
-Options options_of(const Metadata& recipe, const Options& run)
+// What made the picture, with what is said of this run.
+RenderRequest request_of(const Metadata& recipe, const RerunRequest& run)
 {
     const std::string scene = header_text(recipe, "plumb:scene");
-    Options options = header_options(recipe, find_scene(run, scene), run.subject);
-    options.repeat = {scene, {}, header_text(recipe, "plumb:stop")};
-    options.outputs = run.outputs;
-    options.json = run.json;
-    options.quiet = run.quiet;
-    options.verbose = run.verbose;
-    options.render.threads = run.render.threads;
-    return options;
+    RenderRequest request;
+    request.settings = header_settings(recipe, run.image);
+    request.scene = find_scene(run, scene);
+    request.repeat = {scene, {}, header_text(recipe, "plumb:stop")};
+    request.outputs = run.outputs;
+    request.json = run.json;
+    request.quiet = run.quiet;
+    request.verbose = run.verbose;
+    request.threads = run.threads;
+    return request;
 }
 
 // Those that the picture has.
@@ -118,18 +120,19 @@ changed, the error names it.
 )";
 }
 
-int rerun_command(const Options& run)
+int rerun_command(const RerunRequest& run)
 {
-    const Metadata recipe = read_recipe(run.subject);
-    refuse_overwriting_inputs(KeptFiles({run.subject}), run.outputs, run.json,
+    const Metadata recipe = read_recipe(run.image);
+    refuse_overwriting_inputs(KeptFiles({run.image}), run.outputs, run.json,
                               "it is the image to render again");
     check_outputs(run.outputs, run.json);
-    Options options = options_of(recipe, run);
-    const LoadedScene scene = load_and_log(options);
-    check_language(recipe, scene, run.subject);
-    check_inputs(recipe, scene_header(options, scene));
-    options.repeat->samples = samples_of(recipe, render_window(scene.job, options.render), run.subject);
-    return log_rendering(options, render_and_write(options, scene));
+    RenderRequest request = request_of(recipe, run);
+    const LoadedScene scene = load_and_log(request);
+    check_language(recipe, scene, run.image);
+    check_inputs(recipe, scene_header(request, scene));
+    request.repeat->samples = samples_of(
+        recipe, render_window(scene.job, render_options(request.settings, request.threads)), run.image);
+    return log_rendering(request, render_and_write(request, scene));
 }
 
 } // namespace plumb

@@ -58,7 +58,7 @@ std::string result_text(const TestResult& result, TestType type)
 // Where results go: not between the lines of a report on standard output.
 class Printer {
 public:
-    explicit Printer(const Options& options) : quiet_(options.quiet), to_log_(options.json == "-") {}
+    explicit Printer(const TestRequest& request) : quiet_(request.quiet), to_log_(request.json == "-") {}
 
     void print(const std::string& text) const
     {
@@ -90,17 +90,20 @@ void log_warnings(const TestFile& file)
 }
 
 // All files are read before the first test runs. What is wrong with them is thrown together.
-std::vector<FileReport> load_files(const Options& options)
+std::vector<FileReport> load_files(const TestRequest& request)
 {
+    SceneRequest scene;
+    scene.settings = request.settings;
+    const LoadOptions load = load_options(scene);
     std::vector<FileReport> reports;
     std::vector<Diagnostic> problems;
     bool broken = false;
-    for (const std::string& path : options.subjects) {
+    for (const std::string& path : request.files) {
         std::error_code ignored;
         try {
             if (!std::filesystem::exists(path, ignored))
                 throw Error(fmt::format("test file '{}' does not exist", path));
-            reports.push_back({path, load_test(path, options.load), {}});
+            reports.push_back({path, load_test(path, load), {}});
         } catch (const SceneError& error) {
             broken = true;
             problems.insert(problems.end(), error.diagnostics().begin(), error.diagnostics().end());
@@ -169,20 +172,20 @@ std::string report_json(const std::vector<FileReport>& reports, std::uint64_t se
 
 } // namespace
 
-int test_command(const Options& options)
+int test_command(const TestRequest& request)
 {
-    check_outputs({}, options.json);
-    const Printer printer(options);
-    std::vector<FileReport> reports = load_files(options);
+    check_outputs({}, request.json);
+    const Printer printer(request);
+    std::vector<FileReport> reports = load_files(request);
     std::size_t passed = 0, total = 0;
     for (FileReport& report : reports) {
         const TestType type = report.file.type;
-        if (!options.quiet) log_warnings(report.file);
+        if (!request.quiet) log_warnings(report.file);
         printer.print(fmt::format("{}: {}, {} samples each, level {:.4g}\n", visible_text(report.path),
                                   type_name(type), count_text(report.file.sample_count),
                                   test_level(report.file)));
         report.results =
-            run_tests(report.file, {options.render.seed, options.render.threads},
+            run_tests(report.file, {request.settings.samples.seed, request.threads},
                       [&](const TestResult& result) { printer.print_result(report.path, result, type); });
         printer.print(fmt::format("Passed {}/{} tests.\n", report.passed(), report.results.size()));
         passed += report.passed();
@@ -190,7 +193,7 @@ int test_command(const Options& options)
     }
     if (reports.size() > 1)
         printer.print(fmt::format("All {} files: passed {}/{} tests.\n", reports.size(), passed, total));
-    if (!options.json.empty()) write_json(options.json, report_json(reports, options.render.seed));
+    if (!request.json.empty()) write_json(request.json, report_json(reports, request.settings.samples.seed));
     return passed == total ? exit_code::done : exit_code::differs;
 }
 

@@ -3,6 +3,7 @@
 
 // Numbers and words for people.
 
+#include "base/shell_words.h"
 #include "base/visible_text.h"
 #include "plumb/math/color.h"
 #include "plumb/render/film.h"
@@ -24,8 +25,5 @@ std::string lines_text(const std::vector<std::string>& items); // one a line, no
 std::vector<std::string> lines_of(
     std::string_view text); // the inverse, for items without line ends that are not empty
 std::string rectangle_text(const PixelRect& rectangle); // X,Y,WIDTH,HEIGHT
-// As it is if harmless, else in single quotes; with what steers a terminal (visible_text.h) as in $'a\nb'.
-std::string shell_quote(std::string_view word);
-std::vector<std::string> shell_split(std::string_view line); // the words that shell_quote() made a line of
 
 } // namespace plumb

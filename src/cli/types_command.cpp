@@ -2,6 +2,7 @@
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "cli/exit_codes.h"
+#include "cli/usage_error.h"
 #include "scene_file/catalog.h"
 #include "scene_file/element_manuals.h"
 #include "scene_file/foreign_names.h"
@@ -99,9 +100,8 @@ bool print_element_manual(std::string_view name)
 
 } // namespace
 
-int types_command(const Options& options)
+int types_command(const std::string& name)
 {
-    const std::string& name = options.subject;
     if (name.empty()) {
         print_list();
         print_elements();

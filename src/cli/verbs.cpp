@@ -13,32 +13,92 @@ namespace {
 
 constexpr std::size_t any_number = 100000;
 
+// What a verb is asked for, of what the command line says.
+
+ReplayRequest replay_request(const Options& options)
+{
+    ReplayRequest request = options.replay;
+    static_cast<SceneRequest&>(request) = options;
+    return request;
+}
+
+RerunRequest rerun_request(const Options& options)
+{
+    return {options.subject, options.rerun.scene, options.outputs, options.json,
+            options.threads, options.quiet,       options.verbose};
+}
+
+MergeRequest merge_request(const Options& options)
+{
+    return {
+        options.subjects, options.outputs, options.checkpoint.file, options.json, options.merge.allow_missing,
+        options.quiet};
+}
+
+TestRequest test_request(const Options& options)
+{
+    return {options.subjects, options.settings, options.threads, options.json, options.quiet};
+}
+
+CompareRequest compare_request(const Options& options)
+{
+    CompareRequest request = options.compare;
+    request.a = options.subjects[0];
+    request.b = options.subjects[1];
+    request.json = options.json;
+    request.quiet = options.quiet;
+    return request;
+}
+
+RaceRequest race_request(const Options& options)
+{
+    RaceRequest request = options.race;
+    static_cast<SceneRequest&>(request) = options;
+    request.how = options.compare.how;
+    request.threads = options.threads;
+    request.json = options.json;
+    return request;
+}
+
+BatchRequest batch_request(const Options& options)
+{
+    BatchRequest request = options.batch;
+    request.suite = options.subject;
+    request.definitions = options.settings.scene.definitions;
+    request.threads = options.threads;
+    request.quiet = options.quiet;
+    return request;
+}
+
 constexpr VerbRow rows[] = {
     {Verb::render, "", "SCENE [-o IMAGE]... [options]", "render an image", "scene file", 1, 1,
-     render_command},
-    {Verb::new_scene, "new", "FILE", "write a small scene to begin with", "scene file", 1, 1, new_command,
-     new_manual},
-    {Verb::help, "help", "[VERB]", "print this help, or that of a verb", "verb", 0, 1, help_command},
-    {Verb::types, "types", "[NAME]", "list all types, or print a manual", "name", 0, 1, types_command},
-    {Verb::info, "info", "IMAGE", "print the header of an image", "image", 1, 1, info_command},
+     [](const Options& o) { return render_command(o); }},
+    {Verb::new_scene, "new", "FILE", "write a small scene to begin with", "scene file", 1, 1,
+     [](const Options& o) { return new_command(o.subject, o.quiet); }, new_manual},
+    {Verb::help, "help", "[VERB]", "print this help, or that of a verb", "verb", 0, 1,
+     [](const Options& o) { return help_command(o.subject); }},
+    {Verb::types, "types", "[NAME]", "list all types, or print a manual", "name", 0, 1,
+     [](const Options& o) { return types_command(o.subject); }},
+    {Verb::info, "info", "IMAGE", "print the header of an image", "image", 1, 1,
+     [](const Options& o) { return info_command(o.subject); }},
     {Verb::replay, "replay", "SCENE --pixel X,Y --sample I [options]", "print the path of one sample",
-     "scene file", 1, 1, replay_command},
+     "scene file", 1, 1, [](const Options& o) { return replay_command(replay_request(o)); }},
     {Verb::rerun, "rerun", "IMAGE -o IMAGE [options]", "render an image again from its header", "image", 1, 1,
-     rerun_command, rerun_manual},
+     [](const Options& o) { return rerun_command(rerun_request(o)); }, rerun_manual},
     {Verb::merge, "merge", "PART... [-o IMAGE]... [--checkpoint FILE]", "merge parts of an image", "part", 1,
-     any_number, merge_command, merge_manual},
+     any_number, [](const Options& o) { return merge_command(merge_request(o)); }, merge_manual},
     {Verb::check, "check", "SCENE [options]", "check a scene for likely mistakes", "scene file", 1, 1,
-     check_command, check_manual},
+     [](const Options& o) { return check_command(o); }, check_manual},
     {Verb::compare, "compare", "A B [options]", "are two images equal except for noise?", "image", 2, 2,
-     compare_command, compare_manual},
+     [](const Options& o) { return compare_command(compare_request(o)); }, compare_manual},
     {Verb::agree, "agree", "SCENE [options]", "do the estimators agree on a scene?", "scene file", 1, 1,
-     agree_command, agree_manual},
+     [](const Options& o) { return agree_command(race_request(o)); }, agree_manual},
     {Verb::race, "race", "SCENE [options]", "which estimator is the most efficient?", "scene file", 1, 1,
-     race_command, race_manual},
+     [](const Options& o) { return race_command(race_request(o)); }, race_manual},
     {Verb::test, "test", "FILE... [options]", "run a course's statistical tests", "test file", 1, any_number,
-     test_command, test_manual},
+     [](const Options& o) { return test_command(test_request(o)); }, test_manual},
     {Verb::batch, "batch", "SUITE [options]", "render and compare all images of a suite", "suite", 1, 1,
-     batch_command, batch_manual},
+     [](const Options& o) { return batch_command(batch_request(o)); }, batch_manual},
 };
 
 } // namespace

@@ -37,12 +37,12 @@ void add_flip(Comparison& comparison, const Picture& a, const Picture& b, FlipMo
     comparison.flip_map = std::move(error.map);
 }
 
-std::uint64_t tolerated_pixels(const Picture& a, const CompareOptions& options)
+std::uint64_t tolerated_pixels(const Picture& a, const CompareSettings& options)
 {
     return static_cast<std::uint64_t>(static_cast<double>(a.pixels()) * options.fail_percent / 100.0);
 }
 
-Significance find_significance(const Picture& a, const Picture& b, const CompareOptions& options)
+Significance find_significance(const Picture& a, const Picture& b, const CompareSettings& options)
 {
     Significance result;
     const auto without_tests = [&result](Finding finding, std::string reason) {
@@ -81,7 +81,7 @@ bool is_exceeded(const Metrics& metrics, const Threshold& threshold)
     return threshold.metric == "psnr" ? !(value >= threshold.limit) : !(value <= threshold.limit);
 }
 
-CompareOutcome find_outcome(const Comparison& comparison, const CompareOptions& options,
+CompareOutcome find_outcome(const Comparison& comparison, const CompareSettings& options,
                             std::uint64_t tolerated)
 {
     const Finding finding = comparison.significance.finding;
@@ -95,7 +95,7 @@ CompareOutcome find_outcome(const Comparison& comparison, const CompareOptions& 
 
 } // namespace
 
-Comparison compare(const Image& image_a, const Image& image_b, const CompareOptions& options)
+Comparison compare(const Image& image_a, const Image& image_b, const CompareSettings& options)
 {
     Picture a = make_picture(image_a, Side::a, options.layer);
     Picture b = make_picture(image_b, Side::b, options.layer);
@@ -110,8 +110,8 @@ Comparison compare(const Image& image_a, const Image& image_b, const CompareOpti
     result.identical = are_identical(a, b);
     result.same_random_numbers = share_random_numbers(a, b);
     result.metrics = measure(a, b);
-    result.flip_mode = options.flip;
-    add_flip(result, a, b, options.flip);
+    result.flip_mode = options.flip.value_or(options.layer.empty() ? FlipMode::hdr : FlipMode::none);
+    add_flip(result, a, b, result.flip_mode);
     result.non_finite = count_non_finite(a, b);
     result.corrected = correct_for_noise(a, b);
     result.significance = find_significance(a, b, options);

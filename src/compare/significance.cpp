@@ -54,7 +54,7 @@ struct Squares {
 
 class Tester {
 public:
-    Tester(const Picture& a, const Picture& b, const CompareOptions& options)
+    Tester(const Picture& a, const Picture& b, const CompareSettings& options)
         : a_(a), b_(b), options_(options), states_(a.pixels(), State::usable), covered_(a.pixels(), false)
     {
         sampling_ = {a.samples_per_pixel, b.samples_per_pixel, a.is_exact, b.is_exact, options.rounding};
@@ -252,7 +252,7 @@ private:
 
     const Picture& a_;
     const Picture& b_;
-    const CompareOptions& options_;
+    const CompareSettings& options_;
     Sampling sampling_;
     std::vector<State> states_;
     std::vector<bool> covered_;                              // in a square that was tested
@@ -261,7 +261,7 @@ private:
 
 } // namespace
 
-Significance test_significance(const Picture& a, const Picture& b, const CompareOptions& options)
+Significance test_significance(const Picture& a, const Picture& b, const CompareSettings& options)
 {
     return Tester(a, b, options).run();
 }

@@ -7,6 +7,6 @@
 
 namespace plumb {
 
-Significance test_significance(const Picture& a, const Picture& b, const CompareOptions& options);
+Significance test_significance(const Picture& a, const Picture& b, const CompareSettings& options);
 
 } // namespace plumb

@@ -69,7 +69,7 @@ TEST_CASE("a picture with AOVs has layers, and the same beauty", "[cli][aov]")
     CHECK(read_image(directory / "a.png", false).channel_count() == 3);
 
     const PictureHeader header = plumb::header(directory / "a.exr");
-    CHECK(text(header, "plumb:arguments") == "--aov normal,albedo,depth,object");
+    CHECK(text(header, "plumb:set.aov") == "normal,albedo,depth,object");
     CHECK(text(header, "plumb:ids.object") == "1 shape 'rectangle' (scene.xml:10)\n"
                                               "2 shape 'sphere' (scene.xml:14)\n"
                                               "3 shape 'sphere' (scene.xml:18)\n"

@@ -231,7 +231,7 @@ TEST_CASE("entries that share a reference say how it is made", "[cli][batch]")
         "<render scene=\"scene.xml\" spp=\"2, 4\" reference=\"ref.exr\" reference-spp=\"8\"/>", {"--update"});
     CHECK(shared.exit_code == 0);
     CHECK(count_of(shared.out, "made") == 2); // the line and the sum
-    CHECK_THAT(directory.run({"info", "ref.exr"}).out, ContainsSubstring("--spp 8"));
+    CHECK_THAT(directory.run({"info", "ref.exr"}).out, ContainsSubstring("plumb:set.spp          8\n"));
 }
 
 TEST_CASE("a scene's own sample count names its picture", "[cli][batch]")
@@ -268,7 +268,7 @@ TEST_CASE("the reports of batch", "[cli][batch]")
     CHECK(names == Names{"scene_64", "dark_64", "<&\"'>_1"});
     const pugi::xml_node failure = suite.find_child_by_attribute("name", "dark_64").child("failure");
     CHECK(std::string(failure.attribute("type").value()) == "differs");
-    CHECK_THAT(failure.text().get(), ContainsSubstring("renderer ./dark.xml --size 16x12 --spp 64\n"));
+    CHECK_THAT(failure.text().get(), ContainsSubstring("renderer ./dark.xml --spp 64 --size 16x12\n"));
     const pugi::xml_node error = suite.find_child_by_attribute("name", "<&\"'>_1").child("error");
     CHECK_THAT(error.text().get(), ContainsSubstring("</script>"));
 

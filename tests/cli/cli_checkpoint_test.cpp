@@ -106,7 +106,7 @@ TEST_CASE("a checkpoint of another rendering is refused with the reason", "[cli]
           "error: cannot resume from 'c.exr': the integrator was path_mis and is path and the instruction "
           "set was avx2 and is sse4.2\n");
     CHECK(refusal({"scene.xml", "--size", "20x20"}) ==
-          "error: cannot resume from 'c.exr': the options differ\n");
+          "error: cannot resume from 'c.exr': the resolution was the default and is 20x20\n");
     CHECK(refusal({"scene.xml", "--crop", "0,0,8,8"}) ==
           "error: cannot resume from 'c.exr': it has the pixels 0,0,48,36, not 0,0,8,8\n");
     CHECK(refusal({"scene.xml", "--spp", "2"}) ==

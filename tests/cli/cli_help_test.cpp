@@ -4,6 +4,7 @@
 
 #include "cli/small_scene.h"
 #include "cli/verbs.h"
+#include "plumb/scene_file/scene_file.h"
 #include "scene_file/catalog.h"
 #include "scene_file/placement.h"
 #include "support/catch.h"

@@ -13,6 +13,7 @@
 #include "plumb/base/error.h"
 #include "plumb/base/hash.h"
 #include "plumb/render/state_file.h"
+#include "plumb/settings/settings_header.h"
 #include "support/catch.h"
 
 #include <bit>
@@ -118,6 +119,13 @@ void set(Metadata& header, const std::string& name, MetadataValue value)
     header.emplace_back(name, std::move(value));
 }
 
+// As Plumb 0.1 wrote its settings.
+void set_arguments(Metadata& header, const std::string& arguments)
+{
+    std::erase_if(header, [](const auto& entry) { return is_settings_entry(entry.first); });
+    set(header, "plumb:arguments", arguments);
+}
+
 // A small picture, and a state file of half of it.
 struct HostileDirectory : TempDirectory {
     HostileDirectory()
@@ -141,9 +149,10 @@ struct HostileDirectory : TempDirectory {
 // What header.h lists, with what the picture at hand does not have.
 std::vector<std::string> picture_keys(const Metadata& header)
 {
-    std::vector<std::string> keys = {"plumb:arguments",    "plumb:samplesTaken", "plumb:stop",
-                                     "plumb:biases",       "plumb:model",        "plumb:errorBars",
-                                     "plumb:samplerTotal", "plumb:definitions",  "plumb:leftOutFirst"};
+    std::vector<std::string> keys = {"plumb:arguments",   "plumb:set.define",   "plumb:set.output",
+                                     "plumb:stop",        "plumb:samplesTaken", "plumb:biases",
+                                     "plumb:model",       "plumb:errorBars",    "plumb:samplerTotal",
+                                     "plumb:definitions", "plumb:leftOutFirst"};
     for (const auto& [name, value] : header)
         if ((name.starts_with("plumb:") || name == "Software" || name == "worldToCamera") &&
             std::find(keys.begin(), keys.end(), name) == keys.end())
@@ -281,11 +290,10 @@ TEST_CASE("options in a header that do not change the picture are refused", "[cl
           "--json stolen.exr", "--bogus", "'", "--help", "--version", "--threads 1000", "--quiet",
           "other.xml", "-- other.xml"}) {
         Image bad = read_image(directory / "good.exr", false);
-        set(bad.metadata, "plumb:arguments", std::string(arguments));
+        set_arguments(bad.metadata, arguments);
         write_image(directory / "bad.exr", bad);
-        forge_state(directory / "good.state.exr", directory / "bad.state.exr", [&](WordImage& image, auto&) {
-            set(image.metadata, "plumb:arguments", std::string(arguments));
-        });
+        forge_state(directory / "good.state.exr", directory / "bad.state.exr",
+                    [&](WordImage& image, auto&) { set_arguments(image.metadata, arguments); });
         INFO(arguments);
         for (const Names& words :
              {Names{"rerun", "(bad.exr)", "-o", "(again.exr)"},
@@ -294,6 +302,52 @@ TEST_CASE("options in a header that do not change the picture are refused", "[cl
             CHECK(outcome.code == 1);
             check_outcome(directory, outcome, words[1].substr(1, words[1].size() - 2));
             CHECK_THAT(outcome.said, ContainsSubstring("is invalid: plumb:arguments: "));
+            CHECK_FALSE(std::filesystem::exists(directory / "again.exr"));
+        }
+    }
+}
+
+TEST_CASE("the options in headers of Plumb 0.1 are read and written as settings", "[cli][hostile]")
+{
+    const HostileDirectory directory;
+    const std::string arguments = "--size 8x6 --spp 4";
+    Image old = read_image(directory / "good.exr", false);
+    set_arguments(old.metadata, arguments);
+    write_image(directory / "old.exr", old);
+    REQUIRE(directory.run({"rerun", "(old.exr)", "-o", "(again.exr)"}).code == 0);
+    CHECK(read_bytes(directory / "again.exr") == read_bytes(directory / "good.exr"));
+
+    forge_state(directory / "good.state.exr", directory / "old.state.exr",
+                [&](WordImage& image, auto&) { set_arguments(image.metadata, arguments); });
+    const auto merged = [&](const char* part, const char* picture) {
+        REQUIRE(directory.run({"merge", part, "--allow-missing", "-o", picture}).code == 0);
+        return read_bytes(directory / std::string(picture).substr(1, std::string(picture).size() - 2));
+    };
+    CHECK(merged("(old.state.exr)", "(a.exr)") == merged("(good.state.exr)", "(b.exr)"));
+}
+
+TEST_CASE("settings in a header that are none of a picture are refused", "[cli][hostile]")
+{
+    const HostileDirectory directory;
+    for (const auto& [name, value, problem] : std::vector<std::tuple<const char*, const char*, const char*>>{
+             {"plumb:set.output", "stolen.exr", "plumb:set.output is not a setting of an image"},
+             {"plumb:set.spp", "0", "plumb:set.spp must be an integer from 1 to 67108864, not '0'"},
+             {"plumb:settings", "2", "plumb:settings must be an integer from 2"},
+             {"plumb:arguments", "--spp 4", "plumb:settings and plumb:arguments cannot be used together"}}) {
+        Image bad = read_image(directory / "good.exr", false);
+        set(bad.metadata, name, std::string(value));
+        write_image(directory / "bad.exr", bad);
+        forge_state(directory / "good.state.exr", directory / "bad.state.exr",
+                    [&, key = name, text = value](WordImage& image, auto&) {
+                        set(image.metadata, key, std::string(text));
+                    });
+        for (const Names& words :
+             {Names{"rerun", "(bad.exr)", "-o", "(again.exr)"},
+              Names{"merge", "(bad.state.exr)", "-o", "(again.exr)", "--allow-missing"}}) {
+            const Outcome outcome = directory.run(words);
+            CHECK(outcome.code == 1);
+            check_outcome(directory, outcome, words[1].substr(1, words[1].size() - 2));
+            CHECK_THAT(outcome.said, ContainsSubstring(std::string("is invalid: ") + problem));
             CHECK_FALSE(std::filesystem::exists(directory / "again.exr"));
         }
     }

@@ -41,7 +41,7 @@ Comparison compare_pair(const NoisyPicture& how, const SampleKind& kind, Other o
         how_b.samples = 64;
         how_b.estimator = "smooth";
     }
-    CompareOptions options;
+    CompareSettings options;
     options.flip = FlipMode::none;
     if (other == Other::exact) options.exact = Side::b;
     const Image a = noisy_picture(how_a, kind, 2 * seed);
@@ -74,7 +74,7 @@ void check_false_alarms(const NoisyPicture& how, const SampleKind& kind, Other o
         for (std::uint64_t i = 0; i < pairs; ++i)
             if (compare_pair(how, kind, other, seed * 1000003 + i).significance.finding == Finding::different)
                 ++alarms;
-        return test::Outcome{binomial_survival(alarms, pairs, CompareOptions().significance),
+        return test::Outcome{binomial_survival(alarms, pairs, CompareSettings().significance),
                              fmt::format("{} of {} pairs differ", alarms, pairs)};
     };
     check_statistic(fmt::format("{}, {} samples, contrast {}, against {}", kind.name, how.samples,

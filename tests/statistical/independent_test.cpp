@@ -69,7 +69,7 @@ void check_scene(const std::string& name, std::uint64_t samples_per_pixel, doubl
         Image ours = result.film.develop(Channels::color_and_evidence);
         ours.metadata.emplace_back("plumb:samplesPerPixel", static_cast<int>(samples));
 
-        CompareOptions options;
+        CompareSettings options;
         options.flip = FlipMode::none;
         options.rounding = relative_rounding;
         if (reference.is_quadrature) options.exact = Side::b;

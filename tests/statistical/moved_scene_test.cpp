@@ -103,7 +103,7 @@ void check_moves(const MovableScenes& scenes, const std::string& scene, const st
 {
     const std::vector<Vec3d> moves = moves_to_zero(scenes.file(scene), which);
     REQUIRE(moves.size() >= 4);
-    CompareOptions options;
+    CompareSettings options;
     options.significance = sidak_level(significance, moves.size());
     options.flip = FlipMode::none;
     const Image reference = scenes.render(scene, integrator, Vec3d(0.0), 4 * spp, 1);

@@ -19,7 +19,7 @@ Image grey(int width, int height, float value, std::vector<std::string> channels
     return image;
 }
 
-std::string problem(const Image& a, const Image& b, const CompareOptions& options = {})
+std::string problem(const Image& a, const Image& b, const CompareSettings& options = {})
 {
     try {
         compare(a, b, options);
@@ -29,9 +29,9 @@ std::string problem(const Image& a, const Image& b, const CompareOptions& option
     return "no error";
 }
 
-CompareOptions without_flip()
+CompareSettings without_flip()
 {
-    CompareOptions options;
+    CompareSettings options;
     options.flip = FlipMode::none;
     return options;
 }
@@ -85,7 +85,7 @@ TEST_CASE("channels are found by name", "[unit][compare]")
     const float values[] = {64.f, 3.f, 0.02f, 1.f, 0.03f, 2.f, 0.01f};
     std::copy(std::begin(values), std::end(values), a.pixel(0, 0));
     Image b = grey(1, 1, 0.f, {"R", "G", "B"});
-    CompareOptions options = without_flip();
+    CompareSettings options = without_flip();
     options.exact = Side::b;
     const Comparison c = compare(a, b, options);
     CHECK(c.metrics.mse == Approx((1.0 + 4.0 + 9.0) / 3.0));
@@ -103,7 +103,7 @@ TEST_CASE("pictures that cannot be compared say why", "[unit][compare]")
           "the images have different channels: A has R, G, B, B has Y");
     CHECK(problem(grey(1, 1, 0.f), grey(1, 1, 0.f, {"Z", "A"})) ==
           "B has neither the channels R, G and B nor Y, but Z, A; only these can be compared");
-    CompareOptions options;
+    CompareSettings options;
     options.thresholds = {{"ssim", 1.0}};
     CHECK(problem(grey(1, 1, 0.f), grey(1, 1, 0.f), options) ==
           "unknown metric 'ssim'; known are mse, rmse, relmse, mae, max, psnr and flip");
@@ -114,7 +114,7 @@ TEST_CASE("pixels that are not finite differ unless both have them", "[unit][com
     Image a = grey(3, 3, 1.f);
     Image b = grey(3, 3, 1.f);
     a.pixel(2, 1)[0] = not_a_number;
-    CompareOptions options;
+    CompareSettings options;
     options.thresholds = {{"rmse", 0.1}};
     const Comparison one = compare(a, b, options);
     CHECK(one.outcome == CompareOutcome::differs);
@@ -143,7 +143,7 @@ TEST_CASE("limits decide where nobody knows the noise", "[unit][compare]")
 {
     const Image a = grey(4, 4, 1.f);
     const Image b = grey(4, 4, 1.25f);
-    CompareOptions options;
+    CompareSettings options;
     const Comparison neither = compare(a, b, options);
     CHECK(neither.significance.finding == Finding::not_asked);
     CHECK(neither.outcome == CompareOutcome::undecided);
@@ -166,7 +166,7 @@ TEST_CASE("noise on one side only needs the word that the other is exact", "[uni
     const NoisyPicture how;
     const Image a = noisy_picture(how, exponential_samples(), 1);
     const Image truth = true_picture(how);
-    CompareOptions options = without_flip();
+    CompareSettings options = without_flip();
     CHECK(compare(a, truth, options).outcome == CompareOutcome::undecided);
     options.exact = Side::b;
     const Comparison exact = compare(a, truth, options);
@@ -222,7 +222,7 @@ TEST_CASE("a bias is found, and where it is", "[unit][compare]")
     SECTION("in one pixel, which may be tolerated")
     {
         for (int c = 0; c < 3; ++c) b.pixel(5, 6)[c] += 100.f;
-        CompareOptions options = without_flip();
+        CompareSettings options = without_flip();
         const Significance s = compare(a, b, options).significance;
         CHECK(s.finding == Finding::different);
         CHECK(s.differing >= 1);

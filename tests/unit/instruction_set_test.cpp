@@ -83,7 +83,7 @@ TEST_CASE("--isa and its help name the instruction sets that there are", "[unit]
         CHECK_THAT(row->help, ContainsSubstring(std::string(name)));
         Options options;
         row->apply(options, "--isa", std::string(name));
-        CHECK(options.load.instruction_set == name);
+        CHECK(options.settings.method.instruction_set == name);
     }
     CHECK_THAT(row->help, ContainsSubstring("(default " + std::string(default_instruction_set().name) + ")"));
 }

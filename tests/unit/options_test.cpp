@@ -2,9 +2,9 @@
 #include "cli/option_rows.h"
 #include "cli/options.h"
 #include "cli/verbs.h"
-#include "plumb/scene/instruction_set.h"
 #include "support/catch.h"
 
+#include <algorithm>
 #include <cctype>
 #include <sstream>
 
@@ -48,24 +48,10 @@ TEST_CASE("a scene alone leaves everything to the scene", "[unit][options]")
     CHECK(options.subject == "cbox.xml");
     CHECK(options.outputs.empty());
     CHECK(options.json.empty());
-    CHECK(options.exposure == 0.f);
     CHECK_FALSE(options.quiet);
     CHECK_FALSE(options.verbose);
-    CHECK_FALSE(options.load.dialect);
-    CHECK_FALSE(options.load.emitters_absorb);
-    CHECK_FALSE(options.load.mirrored_view);
-    CHECK_FALSE(options.load.environment_scale);
-    CHECK_FALSE(options.load.integrator);
-    CHECK_FALSE(options.load.sampler);
-    CHECK_FALSE(options.load.samples_per_pixel);
-    CHECK_FALSE(options.load.resolution);
-    CHECK(options.load.definitions.empty());
-    CHECK(options.load.instruction_set == default_instruction_set().name);
-    CHECK_FALSE(options.load.lenient);
-    CHECK(options.render.seed == 0);
-    CHECK(options.render.threads == 0);
-    CHECK_FALSE(options.render.crop);
-    CHECK(options.scene_words.empty());
+    CHECK(options.settings == RenderSettings());
+    CHECK(options.threads == 0);
 }
 
 TEST_CASE("every option of a rendering is understood", "[unit][options]")
@@ -77,34 +63,34 @@ TEST_CASE("every option of a rendering is understood", "[unit][options]")
         "--lenient --quiet --json=out.json scene.xml");
     CHECK(options.subject == "scene.xml");
     CHECK(options.outputs == std::vector<std::string>{"a.exr", "b.png", "c.jpg"});
-    CHECK(options.load.samples_per_pixel == 67108864u);
-    CHECK(options.load.integrator == "path_mis");
-    CHECK(options.load.sampler == "independent");
-    CHECK(options.render.seed == 18446744073709551615u);
-    CHECK(options.render.threads == 3);
-    CHECK(options.load.resolution == Vec2i(65535, 1));
-    CHECK(options.render.crop == PixelRect{1, 2, 3, 4});
-    CHECK(options.load.definitions ==
+    CHECK(options.settings.samples.per_pixel == 67108864u);
+    CHECK(options.settings.method.integrator == "path_mis");
+    CHECK(options.settings.method.sampler == "independent");
+    CHECK(options.settings.samples.seed == 18446744073709551615u);
+    CHECK(options.threads == 3);
+    CHECK(options.settings.view.size == Vec2i(65535, 1));
+    CHECK(options.settings.view.crop == PixelRect{1, 2, 3, 4});
+    CHECK(options.settings.scene.definitions ==
           std::map<std::string, std::string>{{"a", "1"}, {"b", "2=3"}, {"c", ""}});
-    CHECK(options.load.dialect == DialectName::eth);
-    CHECK(options.load.emitters_absorb == true);
-    CHECK(options.load.mirrored_view == false);
-    CHECK(options.load.environment_scale == 2.5f);
-    CHECK(options.load.instruction_set == "sse4.2");
-    CHECK(options.exposure == -1.5f);
-    CHECK(options.load.lenient);
+    CHECK(options.settings.scene.dialect == DialectName::eth);
+    CHECK(options.settings.scene.emitters_absorb == true);
+    CHECK(options.settings.scene.mirrored_view == false);
+    CHECK(options.settings.scene.environment_scale == 2.5f);
+    CHECK(options.settings.method.instruction_set == "sse4.2");
+    CHECK(options.settings.output.exposure == -1.5f);
+    CHECK(options.settings.scene.lenient);
     CHECK(options.quiet);
     CHECK(options.json == "out.json");
 }
 
 TEST_CASE("words with two meanings are read as one", "[unit][options]")
 {
-    CHECK(parse("s.xml --dialect auto").load.dialect == std::nullopt);
-    CHECK(parse("s.xml --emitters scatter").load.emitters_absorb == false);
-    CHECK(parse("s.xml --mirror on").load.mirrored_view == true);
+    CHECK(parse("s.xml --dialect auto").settings.scene.dialect == std::nullopt);
+    CHECK(parse("s.xml --emitters scatter").settings.scene.emitters_absorb == false);
+    CHECK(parse("s.xml --mirror on").settings.scene.mirrored_view == true);
     CHECK(parse("s.xml --json -").json == "-");
-    CHECK(parse("s.xml --exposure +2").exposure == 2.f);
-    CHECK(parse("s.xml -t 5").render.threads == 5);
+    CHECK(parse("s.xml --exposure +2").settings.output.exposure == 2.f);
+    CHECK(parse("s.xml -t 5").threads == 5);
     CHECK(parse("./types").verb == Verb::render);
     CHECK(parse("./types").subject == "./types");
     CHECK(parse("-- -s.xml").subject == "-s.xml");
@@ -121,10 +107,10 @@ TEST_CASE("verbs come first and take their own options", "[unit][options]")
     const Options options = parse("replay s.xml --pixel 3,4 --sample 5 --seed 6 --mirror on");
     CHECK(options.verb == Verb::replay);
     CHECK(options.subject == "s.xml");
-    CHECK(options.pixel == Vec2i(3, 4));
-    CHECK(options.sample == 5);
-    CHECK(options.render.seed == 6);
-    CHECK(options.load.mirrored_view == true);
+    CHECK(options.replay.pixel == Vec2i(3, 4));
+    CHECK(options.replay.sample == 5);
+    CHECK(options.settings.samples.seed == 6);
+    CHECK(options.settings.scene.mirrored_view == true);
 
     CHECK(usage_error("s.xml types") == "the verb 'types' must come first");
     CHECK(usage_error("types a b") == "unexpected argument 'b' after 'a'");
@@ -139,9 +125,9 @@ TEST_CASE("verbs come first and take their own options", "[unit][options]")
     const Options test = parse("test a.xml --seed 3 b.xml -t 2 --dialect epfl --json r.json --quiet c.xml");
     CHECK(test.verb == Verb::test);
     CHECK(test.subjects == std::vector<std::string>{"a.xml", "b.xml", "c.xml"});
-    CHECK(test.render.seed == 3);
-    CHECK(test.render.threads == 2);
-    CHECK(test.load.dialect == DialectName::epfl);
+    CHECK(test.settings.samples.seed == 3);
+    CHECK(test.threads == 2);
+    CHECK(test.settings.scene.dialect == DialectName::epfl);
     CHECK(test.json == "r.json");
     CHECK(test.quiet);
     CHECK(parse("test ./test").subjects == std::vector<std::string>{"./test"});
@@ -164,8 +150,7 @@ TEST_CASE("compare takes two images", "[unit][options]")
     CHECK(options.subjects == std::vector<std::string>{"a.exr", "b.exr"});
     CHECK(options.compare.difference == "d.png");
     CHECK(options.compare.difference_is_flip);
-    CHECK_FALSE(options.compare.choose_flip);
-    const CompareOptions& how = options.compare.how;
+    const CompareSettings& how = options.compare.how;
     CHECK(how.significance == 0.05);
     CHECK(how.exact == Side::b);
     CHECK(how.fail_percent == 2.0);
@@ -195,7 +180,11 @@ TEST_CASE("what replay needs is kept, quoted for a shell", "[unit][options]")
     const Options options =
         parse_options({"s.xml", "-o", "a.exr", "-D", "n=a b'c", "--quiet", "--seed", "7", "--threads", "2",
                        "--lenient", "--crop", "0,0,1,1", "--isa", "avx"});
-    CHECK(options.scene_words == " --seed 7 --define 'n=a b'\\''c' --lenient --isa avx");
+    CHECK(replay_options_text(options.settings) == " --seed 7 --define 'n=a b'\\''c' --lenient --isa avx");
+    CHECK(options_text(options.settings) ==
+          " --seed 7 --crop 0,0,1,1 --define 'n=a b'\\''c' --lenient --isa avx");
+    CHECK(options_text(parse("s.xml --no-variance --spp 4 -D a=1 -D b=2").settings) ==
+          " --no-variance --spp 4 --define a=1 --define b=2");
 }
 
 TEST_CASE("help and version need no scene", "[unit][options]")
@@ -299,48 +288,20 @@ TEST_CASE("words of a choice are checked", "[unit][options]")
     CHECK(usage_error("s.xml -D =value") == "--define must be name=value, not '=value'");
 }
 
-TEST_CASE("of every option it is decided what it does to a picture", "[unit][options]")
+TEST_CASE("every setting of a picture is an option of a rendering", "[unit][options]")
 {
-    for (const OptionRow& row : option_rows()) {
-        INFO(row.names);
-        CHECK(row.effect != Effect::undecided);
+    for (const SettingRow<RenderSettings>& setting : setting_rows<RenderSettings>()) {
+        INFO(setting.name);
+        const auto rows = option_rows();
+        const auto row = std::find_if(rows.begin(), rows.end(), [&](const OptionRow& option) {
+            return option.long_name() == "--" + std::string(setting.name);
+        });
+        REQUIRE(row != rows.end());
+        CHECK(row->goes_with(Verb::render));
+        // A sample is replayed with all that changes it.
+        if (setting.effect == Effect::samples || setting.name == "spp") CHECK(row->goes_with(Verb::replay));
         // Only the command line names files.
-        const std::string_view value = row.value;
-        if (value.find("FILE") != value.npos || value.find("DIR") != value.npos)
-            CHECK(row.effect == Effect::run);
-        // An option of `renderer replay` or of the scene changes samples, but for which one is replayed and what is printed.
-        if (row.goes_with(Verb::replay) && (row.topic == Topic::scene || row.topic == Topic::picture))
-            CHECK(row.effect == Effect::samples);
-        // No word of --help, or --quiet, from a header.
-        if (row.topic == Topic::about || row.topic == Topic::output)
-            CHECK((row.effect == Effect::run || row.goes_with(Verb::render)));
+        CHECK(setting.value.find("FILE") == setting.value.npos);
+        CHECK(setting.value.find("DIR") == setting.value.npos);
     }
-}
-
-TEST_CASE("a picture's header chooses what is in the picture, and nothing else", "[unit][options]")
-{
-    const Options options =
-        options_of_header("types", {"--spp", "7", "--crop", "1,2,3,4", "--define", "a=b", "--no-variance"});
-    CHECK(options.subject == "types");
-    CHECK(options.verb == Verb::render);
-    CHECK(options.load.samples_per_pixel == 7);
-    CHECK(options.render.crop == PixelRect{1, 2, 3, 4});
-    CHECK_FALSE(options.variance);
-    for (const OptionRow& row : option_rows()) {
-        INFO(row.names);
-        std::vector<std::string> words = {std::string(row.long_name())};
-        if (row.takes_value()) words.emplace_back("1");
-        if (!row.changes_picture()) CHECK_THROWS_AS(options_of_header("a.xml", words), UsageError);
-    }
-    for (const std::vector<std::string>& words :
-         std::vector<std::vector<std::string>>{{"other.xml"},
-                                               {""},
-                                               {"-"},
-                                               {"--"},
-                                               {"--bogus"},
-                                               {"-o", "x.exr"},
-                                               {"--spp"},
-                                               {"--spp", "0"},
-                                               {"--spp=4", "--spp=5"}})
-        CHECK_THROWS_AS(options_of_header("a.xml", words), UsageError);
 }

@@ -29,7 +29,7 @@ struct SuiteDirectory : TempDirectory {
     {
         Texts texts;
         for (const BatchJob& job : plan(xml, definitions))
-            texts.push_back(inside(job.entry.title() + ": " + command_text(job.render_words)));
+            texts.push_back(inside(job.entry.title() + ": " + command_text(job.entry.scene, job.picture)));
         return texts;
     }
 
@@ -71,7 +71,7 @@ TEST_CASE("an entry of a suite is a command", "[unit][suite]")
               "x/y_64: renderer b.xml --spp 64"});
     CHECK(directory.commands("<suite><render scene='b.xml' no-variance='true' lenient='false' size='4x3'>"
                              "<define name='a' value='1 2'/></render></suite>") ==
-          Texts{"b: renderer b.xml --define 'a=1 2' --no-variance --size 4x3"});
+          Texts{"b: renderer b.xml --no-variance --size 4x3 --define 'a=1 2'"});
 }
 
 TEST_CASE("what a group says holds inside it", "[unit][suite]")
@@ -87,11 +87,11 @@ TEST_CASE("what a group says holds inside it", "[unit][suite]")
                             "  </group>"
                             "  <render scene='b.xml'/>"
                             "</suite>";
-    CHECK(directory.commands(xml) == Texts{"g/h/b: renderer b.xml --define a=1 --seed 2",
-                                           "g/b_4: renderer b.xml --define a=2 --seed 2 --spp 4",
-                                           "b_4: renderer b.xml --define a=0 --seed 9 --spp 4"});
+    CHECK(directory.commands(xml) == Texts{"g/h/b: renderer b.xml --seed 2 --define a=1",
+                                           "g/b_4: renderer b.xml --spp 4 --seed 2 --define a=2",
+                                           "b_4: renderer b.xml --spp 4 --seed 9 --define a=0"});
     CHECK(directory.commands(xml, {{"seed", "5"}}).back() ==
-          "b_4: renderer b.xml --define a=0 --seed 5 --spp 4");
+          "b_4: renderer b.xml --spp 4 --seed 5 --define a=0");
 }
 
 TEST_CASE("references of a suite", "[unit][suite]")
@@ -104,12 +104,13 @@ TEST_CASE("references of a suite", "[unit][suite]")
         "<render scene='c.xml' reference=''/></suite>");
     REQUIRE(jobs.size() == 3);
     CHECK(directory.inside(jobs[0].entry.reference.string()) == "ref/g/a.exr");
-    CHECK(directory.inside(command_text(jobs[0].reference_words)) ==
-          "renderer a.xml --size 8x8 --seed 2 --spp 64");
-    CHECK(jobs[0].compare_words == Texts{"--exact", "B", "--max", "rmse=0.1,flip=1", "--no-verdict"});
+    CHECK(directory.inside(command_text(jobs[0].entry.scene, jobs[0].reference)) ==
+          "renderer a.xml --spp 64 --seed 2 --size 8x8");
+    CHECK(jobs[0].compare ==
+          CompareSettings{.verdict = false, .exact = Side::b, .thresholds = {{"rmse", 0.1}, {"flip", 1.0}}});
     CHECK(directory.inside(jobs[1].entry.reference.string()) == "c.exr");
-    CHECK(directory.inside(command_text(jobs[1].reference_words)) ==
-          "renderer b.xml --size 8x8 --spp 4 --seed 2");
+    CHECK(directory.inside(command_text(jobs[1].entry.scene, jobs[1].reference)) ==
+          "renderer b.xml --spp 4 --seed 2 --size 8x8");
     CHECK(jobs[2].entry.reference.empty());
 }
 
@@ -133,7 +134,7 @@ TEST_CASE("a suite includes others", "[unit][suite]")
                     "<suite><default name='n' value='3'/><render scene='b.xml' spp='$n'/></suite>");
     directory.write("parts/scene.xml", "<scene/>");
     CHECK(directory.commands("<suite><group seed='1'><include filename='parts/more.xml'/></group></suite>") ==
-          Texts{"b_3: renderer parts/b.xml --seed 1 --spp 3"});
+          Texts{"b_3: renderer parts/b.xml --spp 3 --seed 1"});
     CHECK(
         directory.complaint("<suite><include filename='parts/scene.xml'/><render scene='a.xml'/></suite>") ==
         "parts/scene.xml:1:1: error: the root of an included file must be <suite>, not <scene>");

@@ -16,33 +16,13 @@
 // plumb:inputHash and plumb:integrator are equal, both are pictures of one estimator.
 
 #include "plumb/image/image.h"
+#include "plumb/settings/compare_settings.h"
 
 #include <array>
 #include <cstdint>
 #include <optional>
 
 namespace plumb {
-
-enum class Side { a, b };
-enum class FlipMode { none, ldr, hdr };
-
-// The picture fails if the metric is above the limit. Metrics: mse, rmse, relmse, mae, max, flip; psnr is a lower
-// limit.
-struct Threshold {
-    std::string metric;
-    double limit = 0.0;
-};
-
-struct CompareOptions {
-    std::string layer;          // compare the channels LAYER.*, at most three; empty: R, G and B, or Y
-    double significance = 0.01; // the chance to say "differs" of two pictures with the same expectation
-    bool verdict = true;        // look at the noise at all
-    std::optional<Side> exact;  // this picture has no noise
-    double fail_percent = 0.0;  // of the pixels may differ, or stay undecided
-    double rounding = 1e-5;     // relative difference of means that floats may make
-    FlipMode flip = FlipMode::hdr;
-    std::vector<Threshold> thresholds;
-};
 
 // Differences of the pixels that are finite in both pictures, over pixels and channels, d = a - b.
 struct Metrics {
@@ -131,7 +111,7 @@ struct Comparison {
 };
 
 // Throws Error if they cannot be compared: different sizes, missing channels, an unknown metric.
-Comparison compare(const Image& a, const Image& b, const CompareOptions& options = {});
+Comparison compare(const Image& a, const Image& b, const CompareSettings& settings = {});
 
 // The value of a metric by the name that thresholds use. Throws Error if there is none of that name.
 double metric_value(const Metrics& metrics, std::string_view name);

@@ -38,7 +38,7 @@ struct BatchResult {
     std::string biases;          // empty: none
     std::uint64_t left_out = 0;
     std::optional<Comparison> comparison;
-    CompareOptions how;
+    CompareSettings how;
 };
 
 struct BatchRun {

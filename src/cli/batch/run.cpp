@@ -20,19 +20,21 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-// The options that words of the command line mean, with what is said of this run.
-Options options_of(const std::vector<std::string>& words, const Options& run)
+// A picture of a suite, with what is said of this run.
+RenderRequest request_of(const SuiteEntry& entry, const RenderSettings& settings, const BatchRequest& run)
 {
-    Options options = parse_options(words);
-    options.quiet =
+    RenderRequest request;
+    request.scene = entry.scene.string();
+    request.settings = settings;
+    request.quiet =
         run.quiet || !log_is_terminal(); // one bar after the other, no lines between those of the table
-    options.render.threads = run.render.threads;
-    options.keep_interrupted = false; // half a picture is neither a result nor a reference
-    return options;
+    request.threads = run.threads;
+    request.keep_interrupted = false; // half a picture is neither a result nor a reference
+    return request;
 }
 
 // Without a word: warnings are part of the report.
-LoadedScene load_scene_of(const SuiteEntry& entry, Options options)
+LoadedScene load_scene_of(const SuiteEntry& entry, SceneRequest request)
 {
     std::error_code ignored;
     if (!fs::exists(entry.scene, ignored)) {
@@ -41,8 +43,8 @@ LoadedScene load_scene_of(const SuiteEntry& entry, Options options)
             fmt::format("scene file '{}' does not exist{}", entry.scene.string(), entry.scene_way_out)};
         throw SceneError({missing});
     }
-    options.quiet = true;
-    return load_and_log(options);
+    request.quiet = true;
+    return load_and_log(request);
 }
 
 // Does the work and fills in how long it took and what went wrong.
@@ -103,7 +105,8 @@ std::string difference_of(const std::string& picture)
     return fs::path(picture).replace_extension().string() + "_diff.png";
 }
 
-void compare_with_reference(const BatchJob& job, const Options& run, const Image& image, BatchResult& result)
+void compare_with_reference(const BatchJob& job, const BatchRequest& run, const Image& image,
+                            BatchResult& result)
 {
     const SuiteEntry& entry = job.entry;
     std::error_code ignored;
@@ -111,11 +114,9 @@ void compare_with_reference(const BatchJob& job, const Options& run, const Image
         throw SceneError(
             {Diagnostic{Severity::error, entry.reference_at,
                         fmt::format("reference '{}' does not exist; 'renderer batch {} --update' makes it",
-                                    entry.reference.string(), run.subject)}});
+                                    entry.reference.string(), run.suite)}});
     const Image reference = read_image(entry.reference, true);
-    std::vector<std::string> words = {"compare", result.picture, entry.reference.string()};
-    words.insert(words.end(), job.compare_words.begin(), job.compare_words.end());
-    result.how = parse_options(std::move(words)).compare.how;
+    result.how = job.compare;
     try {
         result.comparison = compare(image, reference, result.how);
     } catch (const Error& error) {
@@ -128,13 +129,13 @@ void compare_with_reference(const BatchJob& job, const Options& run, const Image
     result.difference = difference;
 }
 
-BatchResult result_of(const BatchJob& job, const std::vector<std::string>& words)
+BatchResult result_of(const BatchJob& job, const RenderSettings& settings)
 {
     BatchResult result;
     result.title = job.entry.title();
     result.scene = job.entry.scene.string();
     result.reference = job.entry.reference.string();
-    result.command = command_text(words);
+    result.command = command_text(job.entry.scene, settings);
     return result;
 }
 
@@ -170,54 +171,54 @@ void make_directory(const fs::path& directory)
 
 BatchResult run_entry(const BatchJob& job, BatchContext& context)
 {
-    BatchResult result = result_of(job, job.render_words);
+    BatchResult result = result_of(job, job.picture);
     attempt(result, [&] {
-        Options options = options_of(job.render_words, context.options);
+        RenderRequest request = request_of(job.entry, job.picture, context.request);
         {
-            const LoadedScene scene = load_scene_of(job.entry, options);
+            const LoadedScene scene = load_scene_of(job.entry, request);
             result.warnings = warnings_of(scene);
             result.title = counted_title(job.entry, scene, context.titles);
             const std::string stem = (context.directory / result.title).string();
-            options.outputs = {stem + ".exr", stem + ".png"};
-            const std::string key = picture_key(options, scene);
-            result.up_to_date = !context.options.batch.force &&
-                                context.state.is_up_to_date(result.title, key, options.outputs);
+            request.outputs = {stem + ".exr", stem + ".png"};
+            const std::string key = picture_key(request, scene);
+            result.up_to_date =
+                !context.request.force && context.state.is_up_to_date(result.title, key, request.outputs);
             if (!result.up_to_date) {
                 make_directory(fs::path(stem).parent_path());
-                std::vector<std::string> written = options.outputs;
-                if (!job.entry.reference.empty()) written.push_back(difference_of(options.outputs.front()));
+                std::vector<std::string> written = request.outputs;
+                if (!job.entry.reference.empty()) written.push_back(difference_of(request.outputs.front()));
                 refuse_overwriting_inputs(context.kept, written, {},
                                           "it is a scene or a reference of the suite");
                 check_outputs(written, {});
-                check_whole(render_and_write(options, scene), result);
-                context.state.note(result.title, key, options.outputs);
+                check_whole(render_and_write(request, scene), result);
+                context.state.note(result.title, key, request.outputs);
             }
         }
-        const Image image = read_image(options.outputs[0], true);
-        result.picture = options.outputs[0];
-        result.screen_picture = options.outputs[1];
+        const Image image = read_image(request.outputs[0], true);
+        result.picture = request.outputs[0];
+        result.screen_picture = request.outputs[1];
         read_header(result, image);
         result.verdict = BatchVerdict::rendered;
-        if (!job.entry.reference.empty()) compare_with_reference(job, context.options, image, result);
+        if (!job.entry.reference.empty()) compare_with_reference(job, context.request, image, result);
     });
     return result;
 }
 
-BatchResult make_reference(const BatchJob& job, const Options& run, const KeptFiles& kept)
+BatchResult make_reference(const BatchJob& job, const BatchRequest& run, const KeptFiles& kept)
 {
-    BatchResult result = result_of(job, job.reference_words);
+    BatchResult result = result_of(job, job.reference);
     result.title = result.reference;
     attempt(result, [&] {
-        Options options = options_of(job.reference_words, run);
-        options.outputs = {result.reference};
+        RenderRequest request = request_of(job.entry, job.reference, run);
+        request.outputs = {result.reference};
         if (job.entry.reference.extension() == ".exr")
-            options.outputs.push_back(fs::path(job.entry.reference).replace_extension(".png").string());
-        const LoadedScene scene = load_scene_of(job.entry, options);
+            request.outputs.push_back(fs::path(job.entry.reference).replace_extension(".png").string());
+        const LoadedScene scene = load_scene_of(job.entry, request);
         result.warnings = warnings_of(scene);
         make_directory(job.entry.reference.parent_path());
-        refuse_overwriting_inputs(kept, options.outputs, {}, "it is a scene of the suite");
-        check_outputs(options.outputs, {});
-        const Rendered rendered = render_and_write(options, scene);
+        refuse_overwriting_inputs(kept, request.outputs, {}, "it is a scene of the suite");
+        check_outputs(request.outputs, {});
+        const Rendered rendered = render_and_write(request, scene);
         check_whole(rendered, result);
         const Evidence& evidence = rendered.report.evidence;
         if (evidence.noise) result.noise = evidence.noise->rmse;

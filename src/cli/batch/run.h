@@ -6,13 +6,14 @@
 #include "cli/batch/result.h"
 #include "cli/batch/state.h"
 #include "cli/outputs.h"
+#include "cli/requests.h"
 
 #include <set>
 
 namespace plumb {
 
 struct BatchContext {
-    const Options& options; // of `renderer batch`
+    const BatchRequest& request;
     std::filesystem::path directory;
     BatchState state;
     std::set<std::string> titles; // that are taken
@@ -26,6 +27,6 @@ void make_directory(const std::filesystem::path& directory);
 BatchResult run_entry(const BatchJob& job, BatchContext& context);
 
 // Makes a reference; the result says how that went.
-BatchResult make_reference(const BatchJob& job, const Options& options, const KeptFiles& kept);
+BatchResult make_reference(const BatchJob& job, const BatchRequest& run, const KeptFiles& kept);
 
 } // namespace plumb

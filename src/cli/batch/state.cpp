@@ -18,14 +18,13 @@ constexpr std::string_view first_line = "Plumb batch state 1";
 
 } // namespace
 
-std::string picture_key(const Options& options, const LoadedScene& scene)
+std::string picture_key(const RenderRequest& request, const LoadedScene& scene)
 {
     Hash128 hash;
     for (const std::string& part :
-         {std::string(PLUMB_VERSION), hash_of_program(), options.subject, scene.input_hash,
-          options.picture_words, std::to_string(scene.job.sampler->samples_per_pixel()),
-          std::to_string(options.render.seed), scene.job.scene.options().instruction_set,
-          scene.job.scene.embree_version()})
+         {std::string(PLUMB_VERSION), hash_of_program(), request.scene, scene.input_hash,
+          options_text(request.settings), std::to_string(scene.job.sampler->samples_per_pixel()),
+          scene.job.scene.options().instruction_set, scene.job.scene.embree_version()})
         hash.update(fmt::format("{}:{}", part.size(), part));
     return hash.hex();
 }

@@ -3,15 +3,17 @@
 
 // Which pictures of an output directory need not be rendered again: a text file in it, with a line for each picture.
 
-#include "cli/options.h"
+#include "cli/render_request.h"
+
+#include "plumb/scene_file/scene_file.h"
 
 #include <map>
 
 namespace plumb {
 
 // A hash of everything that the bytes of a picture depend on: the program itself, the scene with all its files, and
-// the options.
-std::string picture_key(const Options& options, const LoadedScene& scene);
+// the settings.
+std::string picture_key(const RenderRequest& request, const LoadedScene& scene);
 
 class BatchState {
 public:

@@ -31,7 +31,7 @@ void check(const Comparison& comparison)
 
 void compare_two(const Image& a, const Image& b, FlipMode flip)
 {
-    CompareOptions options;
+    CompareSettings options;
     options.flip = flip;
     const Comparison comparison = compare(a, b, options);
     check(comparison);

@@ -14,11 +14,12 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
     static const auto scene = write_file(small_scene_name, small_scene); // what a header may name
     static_cast<void>(scene);
     const std::string picture = write_file("picture.exr", text_of(data, size)).string();
-    allow_our_errors([&] { info_command(parse_options({"info", picture})); });
-    const std::string again = (directory() / "again.exr").string();
-    allow_our_errors([&] {
-        rerun_command(parse_options({"rerun", picture, "-o", again, "--threads", "1"}));
-    });
-    std::filesystem::remove(again);
+    allow_our_errors([&] { info_command(picture); });
+    RerunRequest again;
+    again.image = picture;
+    again.outputs = {(directory() / "again.exr").string()};
+    again.threads = 1;
+    allow_our_errors([&] { rerun_command(again); });
+    std::filesystem::remove(again.outputs.front());
     return 0;
 }

@@ -12,15 +12,17 @@ using namespace plumb::fuzz;
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
-    std::vector<std::string> words = {"merge"};
+    MergeRequest request;
     for (const std::string_view part : split_pictures(text_of(data, size))) {
-        if (words.size() > 4) break;
-        words.push_back(write_file("part" + std::to_string(words.size()) + ".exr", part).string());
+        if (request.parts.size() > 3) break;
+        const std::string name = "part" + std::to_string(request.parts.size()) + ".exr";
+        request.parts.push_back(write_file(name, part).string());
     }
     for (const char* output : {"merged.exr", "merged.png"})
-        words.insert(words.end(), {"-o", (directory() / output).string()});
-    words.insert(words.end(), {"--checkpoint", (directory() / "sum.exr").string(), "--allow-missing"});
-    allow_our_errors([&] { merge_command(parse_options(words)); });
+        request.outputs.push_back((directory() / output).string());
+    request.checkpoint = (directory() / "sum.exr").string();
+    request.allow_missing = true;
+    allow_our_errors([&] { merge_command(request); });
     for (const char* output : {"merged.exr", "merged.png", "sum.exr", "sum.previous.exr"})
         std::filesystem::remove(directory() / output);
     return 0;

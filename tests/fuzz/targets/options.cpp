@@ -5,6 +5,7 @@
 #include "cli/options.h"
 #include "cli/text.h"
 #include "fuzz/fuzz.h"
+#include "plumb/settings/settings_header.h"
 
 using namespace plumb;
 using namespace plumb::fuzz;
@@ -21,6 +22,13 @@ std::vector<std::string> lines(std::string_view text)
         if (more) text.remove_prefix(end + 1);
     }
     return result;
+}
+
+std::string words_text(const std::vector<std::string>& words)
+{
+    std::string text;
+    for (const std::string& word : words) text += word;
+    return text;
 }
 
 void try_quoting(const std::vector<std::string>& words)
@@ -55,8 +63,11 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
     const std::vector<std::string> words = lines(text_of(data, size));
     allow_our_errors([&] {
         const Options options = parse_options(words);
-        expect(shell_split(options.all_words) == words, "what was given is said to be other words");
+        expect(shell_split(options.typed) == words, "what was given is said to be other words");
         expect_printable(help_text(options.verb));
+        expect(settings_of_header(settings_header(options.settings)) == options.settings ||
+                   valid_utf8(words_text(words)) != words_text(words),
+               "settings in a header are others");
     });
     try_quoting(words);
     try_splitting(words.front());

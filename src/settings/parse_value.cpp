@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "cli/values.h"
+#include "settings/parse_value.h"
 
-#include "cli/options.h"
+#include "plumb/base/error.h"
 
+#include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <fmt/format.h>
 #include <optional>
 
@@ -46,7 +48,7 @@ T number_between(std::string_view option, std::string_view text, T min, T max)
 {
     const auto value = whole_number<T>(text);
     if (!value || !std::isfinite(*value) || *value < min || *value > max)
-        throw UsageError(fmt::format("{} must be a number from {} to {}, not '{}'", option, min, max, text));
+        throw Error(fmt::format("{} must be a number from {} to {}, not '{}'", option, min, max, text));
     return *value;
 }
 
@@ -57,8 +59,7 @@ std::uint64_t parse_integer(std::string_view option, std::string_view text, std:
 {
     const auto value = whole_number<std::uint64_t>(text);
     if (!value || *value < min || *value > max)
-        throw UsageError(
-            fmt::format("{} must be an integer from {} to {}, not '{}'", option, min, max, text));
+        throw Error(fmt::format("{} must be an integer from {} to {}, not '{}'", option, min, max, text));
     return *value;
 }
 
@@ -84,7 +85,7 @@ double parse_duration(std::string_view option, std::string_view text)
     }
     const auto value = whole_number<double>(number);
     if (!value || !(*value > 0.0) || !(*value * unit <= 1e9))
-        throw UsageError(fmt::format("{} must be a time like 90, 90s, 10m or 2h, not '{}'", option, text));
+        throw Error(fmt::format("{} must be a time like 90, 90s, 10m or 2h, not '{}'", option, text));
     return *value * unit;
 }
 
@@ -94,8 +95,7 @@ std::vector<std::string> parse_list(std::string_view option, std::string_view te
     for (std::size_t start = 0; start <= text.size();) {
         const std::size_t end = std::min(text.find(',', start), text.size());
         words.emplace_back(text.substr(start, end - start));
-        if (words.back().empty())
-            throw UsageError(fmt::format("{} has an empty element in '{}'", option, text));
+        if (words.back().empty()) throw Error(fmt::format("{} has an empty element in '{}'", option, text));
         start = end + 1;
     }
     return words;
@@ -105,8 +105,8 @@ Vec2i parse_size(std::string_view option, std::string_view text)
 {
     const auto values = integers(text, 'x', 2);
     if (!values || (*values)[0] == 0 || (*values)[1] == 0)
-        throw UsageError(fmt::format("{} must be WIDTHxHEIGHT, integers from 1 to {} as in 640x480, not '{}'",
-                                     option, max_side, text));
+        throw Error(fmt::format("{} must be WIDTHxHEIGHT, integers from 1 to {} as in 640x480, not '{}'",
+                                option, max_side, text));
     return {(*values)[0], (*values)[1]};
 }
 
@@ -114,10 +114,9 @@ Vec2i parse_pixel(std::string_view option, std::string_view text)
 {
     const auto values = integers(text, ',', 2);
     if (!values)
-        throw UsageError(
-            fmt::format("{} must be X,Y, integers from 0 to {} counted from the upper left corner, "
-                        "not '{}'",
-                        option, max_side, text));
+        throw Error(fmt::format("{} must be X,Y, integers from 0 to {} counted from the upper left corner, "
+                                "not '{}'",
+                                option, max_side, text));
     return {(*values)[0], (*values)[1]};
 }
 
@@ -125,8 +124,8 @@ std::pair<std::uint64_t, std::uint64_t> parse_part(std::string_view option, std:
 {
     const auto values = integers(text, '/', 2);
     if (!values || (*values)[0] < 1 || (*values)[0] > (*values)[1])
-        throw UsageError(fmt::format("{} must be K/N, part K of N from 1/N to N/N and N at most {}, not '{}'",
-                                     option, max_side, text));
+        throw Error(fmt::format("{} must be K/N, part K of N from 1/N to N/N and N at most {}, not '{}'",
+                                option, max_side, text));
     return {static_cast<std::uint64_t>((*values)[0]), static_cast<std::uint64_t>((*values)[1])};
 }
 
@@ -134,10 +133,9 @@ PixelRect parse_rectangle(std::string_view option, std::string_view text)
 {
     const auto values = integers(text, ',', 4);
     if (!values || (*values)[2] == 0 || (*values)[3] == 0)
-        throw UsageError(
-            fmt::format("{} must be X,Y,WIDTH,HEIGHT, integers with X and Y from 0 and WIDTH and "
-                        "HEIGHT from 1 to {}, not '{}'",
-                        option, max_side, text));
+        throw Error(fmt::format("{} must be X,Y,WIDTH,HEIGHT, integers with X and Y from 0 and WIDTH and "
+                                "HEIGHT from 1 to {}, not '{}'",
+                                option, max_side, text));
     return {(*values)[0], (*values)[1], (*values)[2], (*values)[3]};
 }
 
@@ -145,15 +143,22 @@ std::string parse_word(std::string_view option, std::string_view text,
                        const std::vector<std::string_view>& words)
 {
     if (std::find(words.begin(), words.end(), text) == words.end())
-        throw UsageError(fmt::format("{} cannot be '{}'{}", option, text, way_out(text, words)));
+        throw Error(fmt::format("{} cannot be '{}'{}", option, text, way_out(text, words)));
     return std::string(text);
+}
+
+bool parse_switch(std::string_view option, std::string_view text)
+{
+    if (text != "true" && text != "false")
+        throw Error(fmt::format("{} must be true or false, not '{}'", option, text));
+    return text == "true";
 }
 
 std::pair<std::string, std::string> parse_definition(std::string_view option, std::string_view text)
 {
     const std::size_t equals = text.find('=');
     if (equals == 0 || equals == std::string_view::npos)
-        throw UsageError(fmt::format("{} must be name=value, not '{}'", option, text));
+        throw Error(fmt::format("{} must be name=value, not '{}'", option, text));
     return {std::string(text.substr(0, equals)), std::string(text.substr(equals + 1))};
 }
 

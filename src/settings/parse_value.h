@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The values of options: whole words, checked for range. Each function throws UsageError in the name of `option`.
+// The values of settings and options as text. The whole text must be a value in the range. Each function throws Error in
+// the name of `option`.
 
 #include "plumb/image/image.h"
 #include "plumb/math/math.h"
@@ -27,6 +28,7 @@ PixelRect parse_rectangle(std::string_view option, std::string_view text); // X,
 // One of the words, or an error that lists them.
 std::string parse_word(std::string_view option, std::string_view text,
                        const std::vector<std::string_view>& words);
+bool parse_switch(std::string_view option, std::string_view text); // true or false
 std::pair<std::string, std::string> parse_definition(std::string_view option,
                                                      std::string_view text); // name=value
 
