@@ -23,8 +23,8 @@ std::string memory_text(const LoadedScene& scene)
     const Vec2i size = scene.job.camera->resolution();
     constexpr double picture_bytes = 7 * sizeof(float);
     const double later = static_cast<double>(size.x) * static_cast<double>(size.y) *
-                         (static_cast<double>(film_bytes_per_pixel) + picture_bytes);
-    return fmt::format("memory: {:.0f} MB for the scene and the program, {:.0f} MB for film and image",
+                         (static_cast<double>(Film::bytes_per_pixel()) + picture_bytes);
+    return fmt::format("memory: {:.0f} MB for the scene and the program, {:.0f} MB for film and image without AOVs",
                        now / megabyte, later / megabyte);
 }
 

@@ -140,7 +140,7 @@ Report make_report(const RenderRequest& request, const LoadedScene& scene, const
     const PixelRect& window = state.film.window();
     report.is_black = is_black(state.film);
     report.lights = scene.job.scene.emitters().size();
-    report.film_bytes = film_bytes_per_pixel * static_cast<std::uint64_t>(window.width) *
+    report.film_bytes = Film::bytes_per_pixel(state.film.layers()) * static_cast<std::uint64_t>(window.width) *
                         static_cast<std::uint64_t>(window.height);
     report.parse_seconds = scene.parse_seconds;
     report.build_seconds = scene.build_seconds;

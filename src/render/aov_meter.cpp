@@ -14,21 +14,35 @@ namespace plumb {
 namespace {
 
 constexpr const char* behind_suffix = "_behind";
+constexpr const char* variance_prefix = "variance_of_";
 
 struct NamedRow {
     const AovRow* row;
     bool behind;
+    bool variance;
 
-    std::string name() const { return row->layer.name + (behind ? behind_suffix : ""); }
+    std::string name() const
+    {
+        return (variance ? variance_prefix : "") + row->layer.name + (behind ? behind_suffix : "");
+    }
+    Layer layer() const
+    {
+        Layer layer = row->layer;
+        layer.name = name();
+        if (variance) layer.kind = is_of_hits(layer.kind) ? LayerKind::variance_of_hits : LayerKind::variance;
+        return layer;
+    }
 };
 
 std::vector<NamedRow> all_rows()
 {
     std::vector<NamedRow> rows;
-    for (const AovRow& row : aov_rows()) {
-        rows.push_back({&row, false});
-        if (row.behind) rows.push_back({&row, true});
-    }
+    for (const bool variance : {false, true})
+        for (const AovRow& row : aov_rows()) {
+            if (variance && row.layer.kind == LayerKind::id) continue;
+            rows.push_back({&row, false, variance});
+            if (row.behind) rows.push_back({&row, true, variance});
+        }
     return rows;
 }
 
@@ -40,8 +54,10 @@ std::vector<NamedRow> rows_of(std::span<const std::string> names)
         if (std::any_of(rows.begin(), rows.end(), [&](const NamedRow& row) { return row.name() == name; }))
             continue;
         std::vector<std::string> known;
-        for (const NamedRow& row : rows) known.push_back(row.name());
-        throw Error(fmt::format("unknown AOV '{}'; known are {}", name, fmt::join(known, ", ")));
+        for (const NamedRow& row : rows)
+            if (!row.variance) known.push_back(row.name());
+        throw Error(fmt::format("unknown AOV '{}'; known are {}, and {}NAME of those that are no ids", name,
+                                fmt::join(known, ", "), variance_prefix));
     }
     std::erase_if(rows, [&](const NamedRow& row) {
         return std::find(names.begin(), names.end(), row.name()) == names.end();
@@ -61,11 +77,24 @@ void put(double* out, const Vec3d& v)
 ChannelSet layers_of(std::span<const std::string> names)
 {
     ChannelSet layers;
-    for (const NamedRow& named : rows_of(names)) {
-        layers.push_back(named.row->layer);
-        layers.back().name = named.name();
-    }
+    for (const NamedRow& named : rows_of(names)) layers.push_back(named.layer());
     return layers;
+}
+
+std::vector<std::string> aov_names()
+{
+    std::vector<std::string> names;
+    for (const NamedRow& named : all_rows()) names.push_back(named.name());
+    return names;
+}
+
+std::vector<std::string> material_names(const Scene& scene)
+{
+    std::vector<std::string> names;
+    for (const SceneObject& object : scene.objects())
+        if (std::find(names.begin(), names.end(), object.material) == names.end())
+            names.push_back(object.material);
+    return names;
 }
 
 std::vector<std::pair<std::string, std::vector<std::string>>> id_tables(std::span<const std::string> names,
@@ -86,6 +115,11 @@ AovView::AovView(const Scene& scene, const Camera& camera)
     put(forward_, normalize(camera.to_world().vector(Vec3d(0.0, 0.0, 1.0))));
     for (const SceneObject& object : scene.objects())
         objects_.emplace(object.shape.get(), static_cast<std::uint32_t>(objects_.size() + 1));
+    const std::vector<std::string> names = material_names(scene);
+    for (const SceneObject& object : scene.objects()) {
+        const auto at = std::find(names.begin(), names.end(), object.material) - names.begin();
+        materials_.emplace(object.bsdf.get(), static_cast<std::uint32_t>(at + 1));
+    }
 }
 
 double AovView::depth_along_view(const float* position) const
@@ -99,6 +133,12 @@ std::uint32_t AovView::object_of(const Shape* shape) const
 {
     const auto found = objects_.find(shape);
     return found == objects_.end() ? 0 : found->second;
+}
+
+std::uint32_t AovView::material_of(const Bsdf* bsdf) const
+{
+    const auto found = materials_.find(bsdf);
+    return found == materials_.end() ? 0 : found->second;
 }
 
 AovMeter::AovMeter(std::span<const std::string> names, const Scene& scene, const Camera& camera)

@@ -123,6 +123,13 @@ const std::vector<AovRow>& table()
          nullptr,
          [](const Seen& seen, const View& view) { return view.object_of(seen.at.shape); },
          object_names},
+        {{"material", {"id"}, LayerKind::id},
+         "",
+         "which BSDF the pixel's first sample sees: its line in plumb:ids.material, from 1",
+         true,
+         nullptr,
+         [](const Seen& seen, const View& view) { return view.material_of(seen.at.bsdf); },
+         material_names},
     };
     return rows;
 }

@@ -13,7 +13,7 @@
 namespace plumb {
 namespace {
 
-constexpr std::string_view kinds[] = {"mean", "hits", "id"};
+constexpr std::string_view kinds[] = {"mean", "hits", "id", "variance", "variance_of_hits"};
 constexpr std::size_t max_components = 4;
 
 bool is_name(std::string_view text)

@@ -54,7 +54,7 @@ Film::Film(PixelRect window, int full_width, int full_height, ChannelSet layers)
 {
     if (layers.size() > max_layers)
         throw Error(fmt::format("a film has at most {} layers, not {}", max_layers, layers.size()));
-    const std::size_t bytes = film_bytes_per_pixel + LayerSums::bytes_per_pixel(layers);
+    const std::size_t bytes = bytes_per_pixel(layers);
     const std::size_t pixels =
         static_cast<std::size_t>(window.width) * static_cast<std::size_t>(window.height);
     try {
@@ -64,7 +64,12 @@ Film::Film(PixelRect window, int full_width, int full_height, ChannelSet layers)
         throw Error(fmt::format("not enough memory for a film of {}x{} pixels ({} bytes each)", window.width,
                                 window.height, bytes));
     }
-    static_assert(sizeof(Pixel) == film_bytes_per_pixel);
+    static_assert(sizeof(Pixel) == 112);
+}
+
+std::size_t Film::bytes_per_pixel(const ChannelSet& layers)
+{
+    return sizeof(Pixel) + LayerSums::bytes_per_pixel(layers);
 }
 
 Film::Film(Film&&) noexcept = default;

@@ -5,6 +5,8 @@
 #include "plumb/render/film.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -12,6 +14,22 @@ namespace plumb {
 namespace {
 
 // Of a pixel.
+// A component of a variance has these sums.
+enum VarianceSum : std::size_t { values, squares, large_squares, variance_sums };
+
+constexpr const char* sum_names[variance_sums] = {"layer", "squares", "largeSquares"};
+// The largest that one sample adds to each, in units of 2^96.
+constexpr double high_word_per_sample[variance_sums] = {0x1p5, 0x1p4, 0x1p-2};
+
+constexpr float large = 0x1p18f; // as in Film
+constexpr double large_unit = 0x1p-20;
+
+std::size_t sums_per_component(LayerKind kind)
+{
+    if (kind == LayerKind::id) return 0;
+    return is_variance(kind) ? variance_sums : 1;
+}
+
 struct Sizes {
     std::size_t sums = 0;
     std::size_t hits = 0;
@@ -22,12 +40,9 @@ Sizes sizes_of(const ChannelSet& layers)
 {
     Sizes sizes;
     for (const Layer& layer : layers) {
-        if (layer.kind == LayerKind::id) {
-            ++sizes.ids;
-            continue;
-        }
-        sizes.sums += layer.components.size();
-        if (layer.kind == LayerKind::mean_of_hits) ++sizes.hits;
+        sizes.sums += layer.components.size() * sums_per_component(layer.kind);
+        if (is_of_hits(layer.kind)) ++sizes.hits;
+        if (layer.kind == LayerKind::id) ++sizes.ids;
     }
     return sizes;
 }
@@ -37,10 +52,41 @@ bool is_in_range(float value)
     return std::abs(value) < film_max_value; // not if it is not a number
 }
 
+// The variance of the mean of `count` values with these sums.
+double variance_of_mean(const FixedSum* sums, std::uint32_t count)
+{
+    const double n = count;
+    const double mean = static_cast<double>(sums[values]) * fixed_unit / n;
+    const double mean_square = (static_cast<double>(sums[squares]) * fixed_unit +
+                                static_cast<double>(sums[large_squares]) * large_unit) /
+                               n;
+    return std::max(mean_square - mean * mean, 0.0) / (n - 1.0);
+}
+
+double developed(LayerKind kind, const FixedSum* sums, std::uint32_t count)
+{
+    if (is_variance(kind) && (count == 1 || (count == 0 && kind == LayerKind::variance)))
+        return std::numeric_limits<double>::quiet_NaN();
+    if (count == 0) return 0.0;
+    return is_variance(kind) ? variance_of_mean(sums, count)
+                             : static_cast<double>(sums[values]) * fixed_unit / static_cast<double>(count);
+}
+
 // The id of the smaller sample index; 0 has no sample.
 std::uint64_t first_of(std::uint64_t a, std::uint64_t b)
 {
     return a == 0 || b == 0 ? a | b : std::min(a, b);
+}
+
+void add_value(FixedSum* sums, LayerKind kind, float value)
+{
+    const double x = value; // its square is exact
+    sums[values] += to_fixed(x * fixed_units_per_one);
+    if (!is_variance(kind)) return;
+    if (std::abs(value) < large)
+        sums[squares] += to_fixed(x * x * fixed_units_per_one);
+    else
+        sums[large_squares] += to_fixed(x * x / large_unit);
 }
 
 } // namespace
@@ -80,14 +126,14 @@ void LayerSums::add(std::size_t pixel, float weight, const LayerSample& sample, 
             continue;
         }
         const std::size_t size = layer.components.size();
-        const bool of_hits = layer.kind == LayerKind::mean_of_hits;
+        const bool of_hits = is_of_hits(layer.kind);
+        const std::size_t sums = sums_per_component(layer.kind);
         const float scale = of_hits ? 1.f : weight;
         if (hit && std::all_of(value, value + size, [&](float v) { return is_in_range(v * scale); })) {
-            for (std::size_t c = 0; c < size; ++c)
-                sum[c] += to_fixed(static_cast<double>(value[c] * scale) * fixed_units_per_one);
+            for (std::size_t c = 0; c < size; ++c) add_value(sum + c * sums, layer.kind, value[c] * scale);
             if (of_hits) ++*hits;
         }
-        sum += size;
+        sum += size * sums;
         value += size;
         if (of_hits) ++hits;
     }
@@ -112,12 +158,9 @@ void LayerSums::develop(std::size_t pixel, std::uint32_t samples, float* out) co
             *out++ = static_cast<float>(static_cast<std::uint32_t>(*id++));
             continue;
         }
-        const std::uint32_t count = layer.kind == LayerKind::mean_of_hits ? *hits++ : samples;
-        for (std::size_t c = 0; c < layer.components.size(); ++c, ++sum)
-            *out++ =
-                count == 0
-                    ? 0.f
-                    : static_cast<float>(static_cast<double>(*sum) * fixed_unit / static_cast<double>(count));
+        const std::uint32_t count = is_of_hits(layer.kind) ? *hits++ : samples;
+        for (std::size_t c = 0; c < layer.components.size(); ++c, sum += sums_per_component(layer.kind))
+            *out++ = static_cast<float>(developed(layer.kind, sum, count));
     }
 }
 
@@ -125,11 +168,12 @@ std::vector<std::string> LayerSums::word_names() const
 {
     std::vector<std::string> names;
     for (const Layer& layer : layers_)
-        for (std::size_t c = 0; layer.kind != LayerKind::id && c < layer.components.size(); ++c)
-            for (int word = 0; word < 4; ++word)
-                names.push_back(fmt::format("layer.{}.{}", layer.channel(c), word));
+        for (std::size_t c = 0; c < layer.components.size(); ++c)
+            for (std::size_t sum = 0; sum < sums_per_component(layer.kind); ++sum)
+                for (int word = 0; word < 4; ++word)
+                    names.push_back(fmt::format("{}.{}.{}", sum_names[sum], layer.channel(c), word));
     for (const Layer& layer : layers_)
-        if (layer.kind == LayerKind::mean_of_hits) names.push_back(fmt::format("hits.{}", layer.name));
+        if (is_of_hits(layer.kind)) names.push_back(fmt::format("hits.{}", layer.name));
     for (const Layer& layer : layers_)
         if (layer.kind == LayerKind::id)
             for (const char* word : {"id", "sample"})
@@ -163,11 +207,14 @@ void LayerSums::set_words(std::size_t pixel, std::span<const std::uint32_t> word
 bool LayerSums::is_possible(std::span<const std::uint32_t> words, std::uint64_t samples) const
 {
     const std::uint32_t* in = words.data();
-    for (std::size_t i = 0; i < sums_per_pixel_; ++i, in += 4) {
-        // The highest word: |value| < 2^37 in units of 2^-64.
-        const auto high = static_cast<std::int64_t>(static_cast<std::int32_t>(in[3]));
-        if (std::abs(high) > static_cast<std::int64_t>(samples << 5) + 1) return false;
-    }
+    for (const Layer& layer : layers_)
+        for (std::size_t c = 0; c < layer.components.size(); ++c)
+            for (std::size_t sum = 0; sum < sums_per_component(layer.kind); ++sum, in += 4) {
+                const double high = static_cast<std::int32_t>(in[3]); // the highest word
+                if (std::abs(high) > static_cast<double>(samples) * high_word_per_sample[sum] + 1.0 ||
+                    (sum != values && high < 0.0))
+                    return false;
+            }
     for (std::size_t i = 0; i < hits_per_pixel_; ++i)
         if (*in++ > samples) return false;
     for (std::size_t i = 0; i < ids_per_pixel_; ++i, in += 2)

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The sums of a film's layers, exact as those of beauty: 16 bytes a component, 4 for the number of hits of a mean_of_hits, 8 an
-// id.
+// The sums of a film's layers, exact as those of beauty: 16 bytes a component of a mean, 48 of a variance, 4 for the number of
+// hits where it matters, 8 an id.
+//
+// A variance has three sums a component: of the values, of the squares of values below 2^18, and of larger squares in units of
+// 2^-20, below 2^74 each.
 //
 // Range: |value times weight| < 2^37, as for beauty, at most 2^26 times: below 2^127 units. A value outside of it or not finite
 // counts as if the sample had none: a layer changes no other layer, and no beauty.

@@ -27,10 +27,10 @@ Property integer_property(std::uint64_t value)
     return property;
 }
 
-// Bytes for a picture: the film, the picture that it becomes, and a copy for writing.
+// Bytes for a picture of beauty alone: the film, the picture that it becomes, and a copy for writing.
 double picture_bytes(double pixels)
 {
-    return pixels * static_cast<double>(film_bytes_per_pixel + 2 * 3 * sizeof(float));
+    return pixels * static_cast<double>(Film::bytes_per_pixel() + 2 * 3 * sizeof(float));
 }
 
 class SceneBuilder {

@@ -42,9 +42,22 @@ private:
         object.shape = reader.build(shape_types());
         object.bsdf = bsdf ? build_bsdf(*bsdf, context_) : default_bsdf();
         if (emitter) object.emitter = build_area_light(*emitter, object.shape.get());
-        const SourceLocation at = element_.place();
-        object.name = fmt::format("{} '{}' ({}:{})", element_.tag, reader.type(),
-                                  std::filesystem::path(at.file).filename().string(), at.line);
+        object.name = place_name(element_, element_.tag, reader.type());
+        object.material = material_name(bsdf);
+    }
+
+    static std::string place_name(const Element& element, std::string_view tag, std::string_view type)
+    {
+        const SourceLocation at = element.place();
+        return fmt::format("{} '{}' ({}:{})", tag, type, std::filesystem::path(at.file).filename().string(),
+                           at.line);
+    }
+
+    std::string material_name(const Element* bsdf) const
+    {
+        if (!bsdf) return "bsdf 'diffuse' (default)";
+        const std::string id = bsdf->value("id"); // its own, or that of a <ref>
+        return id.empty() ? place_name(*bsdf, bsdf->tag, bsdf->value("type")) : id;
     }
 
     std::unique_ptr<Bsdf> default_bsdf()

@@ -24,20 +24,10 @@ std::string joined(const Names& names)
     return text;
 }
 
-Names all_aovs()
-{
-    Names names;
-    for (const AovRow& row : aov_rows()) {
-        names.push_back(row.layer.name);
-        if (row.behind) names.push_back(row.layer.name + "_behind");
-    }
-    return names;
-}
-
 // Some of them, at least one, in any order.
 Names random_aovs(test::TestRandom& random)
 {
-    Names names = all_aovs();
+    Names names = aov_names();
     for (std::size_t i = names.size(); i-- > 1;)
         std::swap(names[i], names[static_cast<std::size_t>(random.next_double() * double(i + 1))]);
     names.resize(1 + static_cast<std::size_t>(random.next_double() * double(names.size() - 1)));

@@ -18,16 +18,6 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-Names all_aovs()
-{
-    Names names;
-    for (const AovRow& row : aov_rows()) {
-        names.push_back(row.layer.name);
-        if (row.behind) names.push_back(row.layer.name + "_behind");
-    }
-    return names;
-}
-
 // A picture of 8 x 8 pixels from the origin along +z, with all AOVs.
 class Rendered {
 public:
@@ -38,7 +28,7 @@ public:
               "<camera type='perspective'><integer name='width' value='8'/><integer name='height' value='8'/>"
               "<float name='fov' value='{}'/><rfilter type='box'/></camera>{}</scene>",
               integrator, fov, shapes))),
-          state_(render(scene_.job, options(samples, all_aovs()))),
+          state_(render(scene_.job, options(samples, aov_names()))),
           image_(state_.film.develop())
     {}
 
@@ -257,16 +247,88 @@ TEST_CASE("AOVs change no bit of beauty, and trace no ray", "[unit][aov]")
     if (integrator == "normals") CHECK(with.state().rays.total() == 64 * 16);
 }
 
+TEST_CASE("AOVs of a furnace lose nothing in glass", "[unit][aov]")
+{
+    // A glass ball in a closed room of one albedo: all that it reflects and refracts arrives at the room.
+    const Rendered seen("<shape type='sphere'><float name='radius' value='9'/>" + red +
+                            "</shape><shape type='sphere'><point name='center' value='0,0,4'/>"
+                            "<bsdf type='dielectric'/></shape>" +
+                            lamp,
+                        40.f, 64);
+    // 4096 samples whose weights are 1 but for rounding.
+    CHECK(seen.mean("albedo_behind.R") == Approx(0.7).epsilon(1e-4));
+    CHECK(seen.mean("albedo_behind.B") == Approx(0.1).epsilon(1e-4));
+    CHECK(seen.mean("coverage.A") == 1.0);
+    Rendered::each([&](int x, int y) { CHECK(seen.at(x, y, "object_behind.id") == 1.f); });
+}
+
+TEST_CASE("the variance of an AOV is that of its mean", "[unit][aov]")
+{
+    // x is uniform over a pixel of the width w at the wall, so that the variance of the mean of n is w^2 / (12 n). At 1e7
+    // the squares are beyond the range of small ones.
+    const double distance = GENERATE(2.0, 1e7);
+    constexpr std::uint64_t samples = 400;
+    const Rendered seen(
+        fmt::format(
+            "<shape type='rectangle'><point name='center' value='0,0,{}'/><float name='width' value='{}'/>"
+            "<float name='height' value='{}'/><vector name='normal' value='0,0,-1'/></shape>",
+            distance, distance * 10.0, distance * 10.0),
+        40.f, samples);
+    const double w = 2.0 * distance * std::tan(20.0 * pi_d / 180.0) / 8.0;
+    const double expected = w * w / (12.0 * samples);
+    // A pixel's estimate has a relative standard error of sqrt(0.8 / 400), the mean of 64 of 0.0056.
+    CHECK(seen.mean("variance_of_position.X") == Approx(expected).epsilon(0.028));
+    CHECK(seen.mean("variance_of_coverage.A") == 0.0);
+    CHECK(seen.mean("variance_of_depth_z.Z") <= 1e-12 * distance * distance);
+}
+
+TEST_CASE("the variance of a coverage is that of a proportion", "[unit][aov]")
+{
+    const Rendered seen("<shape type='rectangle'><point name='center' value='5,0,1'/>"
+                        "<float name='width' value='9.9'/><float name='height' value='9'/>"
+                        "<vector name='normal' value='0,0,-1'/></shape>",
+                        90.f, 64);
+    Rendered::each([&](int x, int y) {
+        const double p = double(seen.at(x, y, "coverage.A"));
+        CHECK(double(seen.at(x, y, "variance_of_coverage.A")) == Approx(p * (1.0 - p) / 63.0).margin(1e-9));
+        if (p == 0.0) CHECK(seen.at(x, y, "variance_of_normal.Z") == 0.f);
+    });
+    const Rendered once(wall(2.f, -1.f, red), 40.f, 1);
+    CHECK(std::isnan(once.at(0, 0, "variance_of_normal.Z")));
+    CHECK(std::isnan(once.at(0, 0, "variance_of_albedo.R")));
+}
+
+TEST_CASE("objects with one BSDF have one material", "[unit][aov]")
+{
+    const std::string half = "<shape type='rectangle'><point name='center' value='{},0,2'/>"
+                             "<float name='width' value='10'/><float name='height' value='100'/>"
+                             "<vector name='normal' value='0,0,-1'/>{}</shape>";
+    const auto placed = [&](int x, const std::string& bsdf) {
+        return fmt::format(fmt::runtime(half), x, bsdf);
+    };
+    const Rendered shared("<bsdf type='diffuse' id='paint'/>" + placed(-5, "<ref id='paint'/>") +
+                          placed(5, "<ref id='paint'/>"));
+    CHECK(material_names(shared.scene().job.scene) == Names{"paint"});
+    CHECK(shared.at(0, 0, "material.id") == 1.f);
+    CHECK(shared.at(7, 0, "material.id") == 1.f);
+    CHECK(shared.at(0, 0, "object.id") != shared.at(7, 0, "object.id"));
+    const Rendered two(placed(-5, "") + placed(5, red));
+    CHECK(material_names(two.scene().job.scene).size() == 2);
+    CHECK(material_names(two.scene().job.scene).front() == "bsdf 'diffuse' (default)");
+    CHECK(two.at(0, 0, "material.id") + two.at(7, 0, "material.id") == 3.f);
+}
+
 TEST_CASE("the order of AOVs' names does not matter, and unknown ones are refused", "[unit][aov]")
 {
     const ChannelSet layers = layers_of(Names{"depth", "albedo", "depth"});
     CHECK(layer_names(layers) == "albedo, depth");
     CHECK(layers == layers_of(Names{"albedo", "depth"}));
     CHECK(layers_of(Names{}).empty());
-    CHECK_THROWS_WITH(layers_of(Names{"colour"}),
-                      "unknown AOV 'colour'; known are albedo, albedo_behind, normal, normal_behind, "
-                      "geometric_normal, depth, depth_behind, depth_z, position, uv, coverage, object, "
-                      "object_behind");
+    CHECK_THROWS_WITH(
+        layers_of(Names{"colour"}),
+        "unknown AOV 'colour'; known are albedo, albedo_behind, normal, normal_behind, "
+        "geometric_normal, depth, depth_behind, depth_z, position, uv, coverage, object, "
+        "object_behind, material, material_behind, and variance_of_NAME of those that are no ids");
 }
 
 TEST_CASE("a rendering goes on with its own layers only", "[unit][aov]")

@@ -5,6 +5,7 @@
 #include "base/temporary_file.h"
 #include "image/image_words.h"
 #include "plumb/base/error.h"
+#include "plumb/math/elementary.h"
 #include "plumb/render/state_file.h"
 #include "render/state_hash.h"
 #include "support/catch.h"
@@ -23,7 +24,9 @@ namespace {
 
 const ChannelSet some_layers = {{"albedo", {"R", "G", "B"}, LayerKind::mean},
                                 {"position", {"X", "Y", "Z"}, LayerKind::mean_of_hits},
-                                {"object", {"id"}, LayerKind::id}};
+                                {"object", {"id"}, LayerKind::id},
+                                {"variance_of_albedo", {"R", "G", "B"}, LayerKind::variance},
+                                {"variance_of_position", {"X", "Y", "Z"}, LayerKind::variance_of_hits}};
 constexpr PixelRect one_pixel{0, 0, 1, 1};
 constexpr PixelRect window{2, 1, 5, 4};
 
@@ -38,8 +41,11 @@ struct Sample {
 
 Verdict add(Film& film, Vec2i pixel, const Sample& sample)
 {
-    return film.add(pixel, sample.radiance, sample.weight, {sample.values, {&sample.id, 1}, sample.hits},
-                    sample.index);
+    // Their variances are of the same values.
+    std::vector<float> values = sample.values;
+    values.insert(values.end(), sample.values.begin(), sample.values.end());
+    const std::uint64_t hits = sample.hits | sample.hits << 3;
+    return film.add(pixel, sample.radiance, sample.weight, {values, {&sample.id, 1}, hits}, sample.index);
 }
 
 Sample random_sample(TestRandom& random, std::uint64_t index)
@@ -123,6 +129,8 @@ TEST_CASE("a layer is the mean of its samples, and an id the first one", "[unit]
     Film film(one_pixel, 1, 1, some_layers);
     double albedo = 0.0;
     double position = 0.0;
+    double albedo_squares = 0.0;
+    double position_squares = 0.0;
     double hits = 0.0;
     std::uint32_t id = 0;
     constexpr int count = 1000;
@@ -133,10 +141,18 @@ TEST_CASE("a layer is the mean of its samples, and an id the first one", "[unit]
         if (sample.hits == 0) continue;
         albedo += static_cast<double>(sample.values[1] * sample.weight);
         position += static_cast<double>(sample.values[5]);
+        albedo_squares += sqr(static_cast<double>(sample.values[1] * sample.weight));
+        position_squares += sqr(static_cast<double>(sample.values[5]));
         ++hits;
     }
     CHECK(value(film, {0, 0}, "albedo.G") == Approx(albedo / count).epsilon(1e-6));
     CHECK(value(film, {0, 0}, "position.Z") == Approx(position / hits).epsilon(1e-6));
+    albedo /= count;
+    position /= hits;
+    CHECK(value(film, {0, 0}, "variance_of_albedo.G") ==
+          Approx((albedo_squares / count - albedo * albedo) / (count - 1)).epsilon(1e-6));
+    CHECK(value(film, {0, 0}, "variance_of_position.Z") ==
+          Approx((position_squares / hits - position * position) / (hits - 1)).epsilon(1e-6));
     CHECK(value(film, {0, 0}, "object.id") == static_cast<float>(id));
 }
 
@@ -159,6 +175,8 @@ TEST_CASE("the largest values of a layer add up without wrapping", "[unit][layer
     CHECK(value(film, {0, 0}, "albedo.R") == large);
     CHECK(value(film, {0, 0}, "position.X") == -large);
     CHECK(value(film, {0, 0}, "position.Z") == 1e6f);
+    CHECK(value(film, {0, 0}, "variance_of_albedo.R") == 0.f);
+    CHECK(value(film, {0, 0}, "variance_of_position.X") == 0.f);
 }
 
 TEST_CASE("a value that a layer cannot hold changes nothing else", "[unit][layers]")
@@ -186,13 +204,16 @@ TEST_CASE("films with different layers cannot be added", "[unit][layers]")
     Film other(one_pixel, 1, 1);
     other.add({0, 0}, Color(1.f), 1.f);
     CHECK(message([&] { film += other; }) == "films with different layers cannot be added: one has albedo, "
-                                             "position, object, the other none");
+                                             "position, object, variance_of_albedo, variance_of_position, "
+                                             "the other none");
     CHECK(film.words({0, 0}) == before);
 }
 
 TEST_CASE("a set of layers is the same after it was text", "[unit][layers]")
 {
-    CHECK(to_text(some_layers) == "albedo:R,G,B:mean position:X,Y,Z:hits object:id:id");
+    CHECK(to_text(some_layers) == "albedo:R,G,B:mean position:X,Y,Z:hits object:id:id "
+                                  "variance_of_albedo:R,G,B:variance "
+                                  "variance_of_position:X,Y,Z:variance_of_hits");
     CHECK(channel_set_from_text(to_text(some_layers)) == some_layers);
     CHECK(to_text({}) == "none");
     CHECK(channel_set_from_text("none").empty());
@@ -265,6 +286,9 @@ TEST_CASE("a state file with impossible layers is refused", "[unit][layers][stat
     std::vector<std::uint32_t> words = layer_words(state.film, {4, 3});
     const std::vector<std::string> names = state.film.layer_word_names();
     const auto [name, word] = GENERATE(std::pair("layer.albedo.G.3", 0x1000u), std::pair("hits.position", 9u),
+                                       std::pair("squares.variance_of_albedo.G.3", 0x1000u),
+                                       std::pair("squares.variance_of_albedo.G.3", 0x80000000u),
+                                       std::pair("largeSquares.variance_of_position.X.3", 8u),
                                        std::pair("first.object.sample", 0x8000000u));
     const auto found = std::find(names.begin(), names.end(), name);
     REQUIRE(found != names.end());

@@ -11,6 +11,7 @@
 
 namespace plumb {
 
+class Bsdf;
 class Camera;
 class Scene;
 class Shape;
@@ -32,6 +33,8 @@ struct AovRow {
     std::vector<std::string> (*table)(const Scene& scene);
 };
 std::span<const AovRow> aov_rows();
+// Of all layers: those of the rows, NAME_behind, and variance_of_NAME of each that is no id.
+std::vector<std::string> aov_names();
 
 // The layers of these names, each once, in the table's order whatever the order of the names. Throws Error for an unknown name.
 ChannelSet layers_of(std::span<const std::string> names);
@@ -45,12 +48,17 @@ struct AovView {
     AovView(const Scene& scene, const Camera& camera);
     double depth_along_view(const float* position) const; // in front of the camera
     std::uint32_t object_of(const Shape* shape) const;    // from 1
+    std::uint32_t material_of(const Bsdf* bsdf) const;    // from 1
 
 private:
     double eye_[3];
     double forward_[3]; // of unit length
     std::unordered_map<const Shape*, std::uint32_t> objects_;
+    std::unordered_map<const Bsdf*, std::uint32_t> materials_;
 };
+
+// The materials of the objects, each once, in the order of the objects.
+std::vector<std::string> material_names(const Scene& scene);
 
 // Measures samples for a film with the layers of these names. Scene and camera must outlive it.
 class AovMeter {

@@ -16,8 +16,20 @@ namespace plumb {
 enum class LayerKind {
     mean, // over all samples, with the filter's weights: what sees nothing counts as 0
     mean_of_hits, // over the samples that have a value, without weights: never outside the range of the values; 0 if none has
-    id, // of the pixel's first sample, by its index: 0 or an index into a table, from 1
+    id,       // of the pixel's first sample, by its index: 0 or an index into a table, from 1
+    variance, // of what `mean` gives: estimated as Film::variance_of_mean; not a number below two samples
+    variance_of_hits, // of what `mean_of_hits` gives; 0 if no sample has a value, not a number if one has
 };
+
+constexpr bool is_of_hits(LayerKind kind)
+{
+    return kind == LayerKind::mean_of_hits || kind == LayerKind::variance_of_hits;
+}
+
+constexpr bool is_variance(LayerKind kind)
+{
+    return kind == LayerKind::variance || kind == LayerKind::variance_of_hits;
+}
 
 struct Layer {
     std::string name;
@@ -33,7 +45,7 @@ inline constexpr std::size_t max_layers = 64;
 // Two films with equal ones have the same channels and may be added. Empty: beauty only.
 using ChannelSet = std::vector<Layer>;
 
-// "albedo:R,G,B:mean normal:X,Y,Z:hits object:id:id"; of nothing "none". And back, which throws Error for any other text.
+// "albedo:R,G,B:mean normal:X,Y,Z:hits object:id:id variance_of_uv:U,V:variance_of_hits"; of nothing "none". And back, which throws Error for any other text.
 std::string to_text(const ChannelSet& layers);
 ChannelSet channel_set_from_text(std::string_view text);
 

@@ -33,7 +33,6 @@ enum class Verdict { accepted, not_finite, negative, out_of_range };
 
 inline constexpr float film_max_value = 0x1p37f;
 inline constexpr std::uint64_t film_max_samples = max_samples_per_pixel;
-inline constexpr std::size_t film_bytes_per_pixel = 112;
 
 // What an image holds: R, G and B, or also variance.R, variance.G and variance.B (Film::variance_of_mean) and
 // contributing (Film::contributing_count). After them come the film's layers.
@@ -49,6 +48,9 @@ public:
     Film(Film&&) noexcept;
     Film& operator=(Film&&) noexcept;
     ~Film();
+
+    // What a film with these layers takes in memory.
+    static std::size_t bytes_per_pixel(const ChannelSet& layers = {});
 
     const PixelRect& window() const { return window_; }
     const ChannelSet& layers() const;

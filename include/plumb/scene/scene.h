@@ -20,7 +20,8 @@ struct SceneObject {
     std::unique_ptr<Shape> shape;
     std::shared_ptr<const Bsdf> bsdf;
     std::unique_ptr<Emitter> emitter;
-    std::string name; // "mesh 'obj' (cbox.xml:12)", for people
+    std::string name;     // "mesh 'obj' (cbox.xml:12)", for people
+    std::string material; // "floor", "bsdf 'diffuse' (cbox.xml:14)" likewise; objects with one BSDF have one name
 };
 
 struct SceneOptions {
