@@ -80,7 +80,7 @@ std::vector<std::pair<std::string, std::vector<std::string>>> id_tables(std::spa
     return tables;
 }
 
-AovView::AovView(const Scene& scene, const Camera& camera)
+AovView::AovView(const Scene& scene, const Camera& camera) : scene_(scene)
 {
     put(eye_, camera.to_world().point(Vec3d(0.0, 0.0, 0.0)));
     put(forward_, normalize(camera.to_world().vector(Vec3d(0.0, 0.0, 1.0))));
@@ -95,9 +95,11 @@ double AovView::depth_along_view(const float* position) const
     return depth;
 }
 
-std::uint32_t AovView::object_of(const Shape* shape) const
+std::uint32_t AovView::object_of(const SurfacePoint& at) const
 {
-    const auto found = objects_.find(shape);
+    if (const auto instance = scene_.instance_of(at))
+        return static_cast<std::uint32_t>(objects_.size()) + *instance + 1;
+    const auto found = objects_.find(at.shape);
     return found == objects_.end() ? 0 : found->second;
 }
 

@@ -16,6 +16,7 @@ class Scene;
 class Shape;
 struct FirstSurfaces;
 struct SeenSurface;
+struct SurfacePoint;
 
 struct AovView;
 
@@ -44,9 +45,11 @@ std::vector<std::pair<std::string, std::vector<std::string>>> id_tables(std::spa
 struct AovView {
     AovView(const Scene& scene, const Camera& camera);
     double depth_along_view(const float* position) const; // in front of the camera
-    std::uint32_t object_of(const Shape* shape) const;    // from 1
+    // From 1: the scene's objects, and then its instances, each as a whole.
+    std::uint32_t object_of(const SurfacePoint& at) const;
 
 private:
+    const Scene& scene_;
     double eye_[3];
     double forward_[3]; // of unit length
     std::unordered_map<const Shape*, std::uint32_t> objects_;
