@@ -9,6 +9,7 @@
 #include "plumb/scene/tracer.h"
 
 #include <algorithm>
+#include <utility>
 #include <fmt/format.h>
 
 namespace plumb {
@@ -35,8 +36,10 @@ public:
     {
         if (scene_.emitters().empty() && job_.integrator->needs_lamps())
             add({}, "there is no light: the image will be black");
-        find_facts();
-        for (std::size_t i = 0; i < facts_.size(); ++i) check(scene_.objects()[i], facts_[i]);
+        find_facts(scene_.objects());
+        for (const Group* group : scene_.groups()) find_facts(group->objects());
+        std::sort(borders_.begin(), borders_.end());
+        for (const auto& [object, facts] : facts_) check(*object, facts);
         check_camera();
         check_blackness();
         for (Doubt& doubt : precision_doubts(job_)) doubts_.push_back(std::move(doubt));
@@ -48,16 +51,15 @@ private:
     void add(const std::string& object, std::string text) { doubts_.push_back({object, std::move(text)}); }
 
     // Of the objects for which it matters where inside and outside are.
-    void find_facts()
+    void find_facts(const std::vector<SceneObject>& objects)
     {
-        for (const SceneObject& object : scene_.objects()) {
+        for (const SceneObject& object : objects) {
             const bool has_sides = transmits(*object.bsdf) || object.emitter;
-            facts_.push_back(has_sides ? mesh_facts(*object.shape) : MeshFacts());
+            facts_.push_back({&object, has_sides ? mesh_facts(*object.shape) : MeshFacts()});
             if (!transmits(*object.bsdf)) continue;
-            const std::vector<Edge>& edges = facts_.back().open_edges;
+            const std::vector<Edge>& edges = facts_.back().second.open_edges;
             borders_.insert(borders_.end(), edges.begin(), edges.end());
         }
-        std::sort(borders_.begin(), borders_.end());
     }
 
     // Surfaces between several media, of glass and of the water in it, close a space together: where one ends, so
@@ -159,20 +161,18 @@ private:
     // Inside, if all that it sees is one closed object from behind.
     void check_camera()
     {
-        const Shape* around = nullptr;
+        std::optional<SurfacePoint> around;
         for (const Vec2f& place : {Vec2f(0.5f, 0.5f), Vec2f(0.01f, 0.01f), Vec2f(0.99f, 0.01f),
                                    Vec2f(0.01f, 0.99f), Vec2f(0.99f, 0.99f)}) {
             const Ray ray = camera_ray(place.x, place.y);
             const auto hit = scene_.intersect(ray);
             if (!hit || dot(hit->geometric_normal, ray.direction) <= 0.f) return;
-            if (around != nullptr && around != hit->shape) return;
-            around = hit->shape;
+            if (around && (around->shape != hit->shape || around->instance != hit->instance)) return;
+            around = *hit;
         }
-        for (const SceneObject& object : scene_.objects()) {
-            if (object.shape.get() != around) continue;
-            const MeshFacts facts = mesh_facts(*object.shape);
-            if (facts.is_closed && facts.volume > 0.0) add(object.name, "the camera is inside it");
-        }
+        if (!around) return;
+        const MeshFacts facts = mesh_facts(*around->shape);
+        if (facts.is_closed && facts.volume > 0.0) add(scene_.name_of(*around), "the camera is inside it");
     }
 
     // Looks at a grid of places in the picture as the integrator does.
@@ -204,8 +204,8 @@ private:
     const Scene& scene_;
     float size_;
     std::unique_ptr<Sampler> sampler_;
-    std::vector<MeshFacts> facts_; // for each object
-    std::vector<Edge> borders_;    // open edges of every object that light enters, sorted
+    std::vector<std::pair<const SceneObject*, MeshFacts>> facts_; // of the scene's objects, and of the groups'
+    std::vector<Edge> borders_; // open edges of every object that light enters, sorted
     std::vector<Doubt> doubts_;
 };
 

@@ -71,10 +71,10 @@ bool plane_reaches(const FlatTriangle& triangle, double reach, const Box3f& box)
 
 class LightStrategy {
 public:
-    explicit LightStrategy(const Scene& scene)
+    explicit LightStrategy(const std::vector<SceneObject>& objects)
     {
-        surfaces_.reserve(scene.objects().size());
-        for (const SceneObject& object : scene.objects()) surfaces_.emplace_back(*object.shape);
+        surfaces_.reserve(objects.size());
+        for (const SceneObject& object : objects) surfaces_.emplace_back(*object.shape);
     }
 
     Coincidences find()
@@ -196,9 +196,9 @@ private:
 
 } // namespace
 
-Coincidences find_coincidences(const Scene& scene)
+Coincidences find_coincidences(const std::vector<SceneObject>& objects)
 {
-    return LightStrategy(scene).find();
+    return LightStrategy(objects).find();
 }
 
 } // namespace plumb

@@ -18,7 +18,7 @@ struct CoincidentPlace {
 
 // Two objects that coincide, or one that coincides with itself.
 struct Coincidence {
-    std::size_t first = 0; // object of the scene; first <= second
+    std::size_t first = 0; // of the objects given; first <= second
     std::size_t second = 0;
     bool faces_alike = true;             // else the one's front is where the other's back is
     std::uint64_t count = 0;             // pairs of triangles, or of spheres
@@ -35,6 +35,6 @@ struct Coincidences {
 // the other, within what rounding does to coordinates of their size (16 roundings) or a millionth of the smaller one's
 // size, whatever is more. Neighbours that share an edge or a corner do not overlap. Takes n log n time for n triangles
 // that are a surface; a bound holds for others.
-Coincidences find_coincidences(const Scene& scene);
+Coincidences find_coincidences(const std::vector<SceneObject>& objects);
 
 } // namespace plumb

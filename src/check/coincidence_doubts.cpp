@@ -5,6 +5,7 @@
 #include "plumb/sampling/sampling.h"
 
 #include <algorithm>
+#include <tuple>
 #include <fmt/format.h>
 
 namespace plumb {
@@ -19,8 +20,16 @@ bool transmits(const SceneObject& object)
     return object.bsdf->lobes().has_any(transmission_lobes);
 }
 
+// As an instance, or null, puts it into the scene.
+Ray in_scene(const InstanceMap* map, const Ray& ray)
+{
+    if (map == nullptr) return ray;
+    return {Vec3f(map->to_world(Vec3d(ray.origin))), map->to_world(Tangents{ray.direction, Vec3f(0.f)}).dp_du};
+}
+
 // Whether all that is seen from a side of the surfaces are backs: the inside of a body.
-bool is_enclosed(const Scene& scene, const CoincidentPlace& place, double side, double offset)
+bool is_enclosed(const Scene& scene, const InstanceMap* map, const CoincidentPlace& place, double side,
+                 double offset)
 {
     constexpr int rays = 6; // in each of two dimensions
     const Vec3f normal = place.front * static_cast<float>(side);
@@ -30,19 +39,23 @@ bool is_enclosed(const Scene& scene, const CoincidentPlace& place, double side, 
         const Vec2f u((static_cast<float>(i % rays) + 0.5f) / rays,
                       (static_cast<float>(i / rays) + 0.5f) / rays);
         const Vec3f direction = frame.to_world(square_to_cosine_hemisphere(u));
-        const auto hit = scene.intersect({origin, direction});
-        if (!hit || dot(hit->geometric_normal, direction) <= 0.f) return false;
+        const Ray ray = in_scene(map, {origin, direction});
+        const auto hit = scene.intersect(ray);
+        if (!hit || dot(hit->geometric_normal, ray.direction) <= 0.f) return false;
     }
     return true;
 }
 
 class Speaker {
 public:
-    explicit Speaker(const Scene& scene) : scene_(scene) {}
+    // map: of the instance whose group has the objects; null: the scene has them.
+    Speaker(const Scene& scene, const std::vector<SceneObject>& objects, const InstanceMap* map)
+        : scene_(scene), objects_(objects), map_(map)
+    {}
 
     std::vector<Doubt> doubts() const
     {
-        const Coincidences coincidences = find_coincidences(scene_);
+        const Coincidences coincidences = find_coincidences(objects_);
         std::vector<Doubt> doubts;
         for (const Coincidence& one : coincidences.found)
             if (matters(one)) doubts.push_back(doubt(one));
@@ -53,14 +66,15 @@ public:
     }
 
 private:
-    const SceneObject& object(std::size_t i) const { return scene_.objects()[i]; }
+    const SceneObject& object(std::size_t i) const { return objects_[i]; }
 
     bool matters(const Coincidence& one) const
     {
         if (one.faces_alike || transmits(object(one.first)) || transmits(object(one.second))) return true;
         return std::any_of(one.places.begin(), one.places.end(), [&](const CoincidentPlace& place) {
             const double offset = gap_factor * one.tolerance;
-            return !is_enclosed(scene_, place, 1.0, offset) && !is_enclosed(scene_, place, -1.0, offset);
+            return !is_enclosed(scene_, map_, place, 1.0, offset) &&
+                   !is_enclosed(scene_, map_, place, -1.0, offset);
         });
     }
 
@@ -106,13 +120,39 @@ private:
     }
 
     const Scene& scene_;
+    const std::vector<SceneObject>& objects_;
+    const InstanceMap* map_;
 };
+
+// The first instance that is in the place of another one.
+std::optional<Doubt> repeated_instance(const Scene& scene)
+{
+    std::vector<const Instance*> sorted;
+    for (const Instance& instance : scene.instances()) sorted.push_back(&instance);
+    const auto key = [](const Instance* i) { return std::tie(i->group, i->rows()); };
+    std::stable_sort(sorted.begin(), sorted.end(),
+                     [&](const Instance* a, const Instance* b) { return key(a) < key(b); });
+    const auto same = std::adjacent_find(sorted.begin(), sorted.end(), [&](const Instance* a, const Instance* b) {
+        return key(a) == key(b);
+    });
+    if (same == sorted.end()) return std::nullopt;
+    return Doubt{(*std::next(same))->name,
+                 fmt::format("it is in the same place as {}; remove one of them", (*same)->name)};
+}
 
 } // namespace
 
 std::vector<Doubt> coincidence_doubts(const Scene& scene)
 {
-    return Speaker(scene).doubts();
+    std::vector<Doubt> doubts = Speaker(scene, scene.objects(), nullptr).doubts();
+    for (const Group* group : scene.groups()) {
+        const auto first = std::find_if(scene.instances().begin(), scene.instances().end(),
+                                        [&](const Instance& one) { return one.group.get() == group; });
+        for (Doubt& doubt : Speaker(scene, group->objects(), &*first).doubts())
+            doubts.push_back(std::move(doubt));
+    }
+    if (auto doubt = repeated_instance(scene)) doubts.push_back(*std::move(doubt));
+    return doubts;
 }
 
 } // namespace plumb

@@ -21,8 +21,11 @@ void log_facts(const SceneRequest& request, const LoadedScene& loaded)
     const Scene& scene = loaded.job.scene;
     const Vec2i resolution = loaded.job.camera->resolution();
     const Box3f bounds = scene.bounds();
-    print_log(fmt::format("scene: objects {}, triangles {}, emitters {}", scene.objects().size(),
-                          scene.triangle_count(), scene.emitters().size()));
+    const std::string instances = scene.instances().empty()
+                                      ? std::string()
+                                      : fmt::format(", instances {}", scene.instances().size());
+    print_log(fmt::format("scene: objects {}, triangles {}, emitters {}{}", scene.objects().size(),
+                          scene.triangle_count(), scene.emitters().size(), instances));
     if (!bounds.isEmpty())
         print_log(fmt::format("bounds: {} to {}", point_text(bounds.min), point_text(bounds.max)));
     print_log(fmt::format("image: {} x {} pixels, {} samples each, seed {}", resolution.x, resolution.y,

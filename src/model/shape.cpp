@@ -2,6 +2,8 @@
 
 #include "plumb/model/shape.h"
 
+#include "plumb/model/instance_map.h"
+
 namespace plumb {
 
 std::optional<ShapeSample> Shape::sample_solid_angle(const Vec3f&, const Vec2f&) const
@@ -12,6 +14,12 @@ std::optional<ShapeSample> Shape::sample_solid_angle(const Vec3f&, const Vec2f&)
 std::optional<float> Shape::solid_angle_pdf(const Vec3f&) const
 {
     return std::nullopt;
+}
+
+Tangents tangents_at(const SurfacePoint& at)
+{
+    if (at.instance == nullptr) return at.shape->tangents(at);
+    return at.instance->to_world(at.shape->tangents(at.instance->to_object(at)));
 }
 
 } // namespace plumb

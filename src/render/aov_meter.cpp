@@ -65,6 +65,15 @@ std::vector<NamedRow> rows_of(std::span<const std::string> names)
     return rows;
 }
 
+// Those of the scene, then those of its groups.
+template <class Action>
+void for_each_object(const Scene& scene, const Action& action)
+{
+    for (const SceneObject& object : scene.objects()) action(object);
+    for (const Group* group : scene.groups())
+        for (const SceneObject& object : group->objects()) action(object);
+}
+
 void put(double* out, const Vec3d& v)
 {
     out[0] = v.x;
@@ -91,9 +100,10 @@ std::vector<std::string> aov_names()
 std::vector<std::string> material_names(const Scene& scene)
 {
     std::vector<std::string> names;
-    for (const SceneObject& object : scene.objects())
+    for_each_object(scene, [&](const SceneObject& object) {
         if (std::find(names.begin(), names.end(), object.material) == names.end())
             names.push_back(object.material);
+    });
     return names;
 }
 
@@ -109,17 +119,17 @@ std::vector<std::pair<std::string, std::vector<std::string>>> id_tables(std::spa
     return tables;
 }
 
-AovView::AovView(const Scene& scene, const Camera& camera)
+AovView::AovView(const Scene& scene, const Camera& camera) : scene_(scene)
 {
     put(eye_, camera.to_world().point(Vec3d(0.0, 0.0, 0.0)));
     put(forward_, normalize(camera.to_world().vector(Vec3d(0.0, 0.0, 1.0))));
     for (const SceneObject& object : scene.objects())
         objects_.emplace(object.shape.get(), static_cast<std::uint32_t>(objects_.size() + 1));
     const std::vector<std::string> names = material_names(scene);
-    for (const SceneObject& object : scene.objects()) {
+    for_each_object(scene, [&](const SceneObject& object) {
         const auto at = std::find(names.begin(), names.end(), object.material) - names.begin();
         materials_.emplace(object.bsdf.get(), static_cast<std::uint32_t>(at + 1));
-    }
+    });
 }
 
 double AovView::depth_along_view(const float* position) const
@@ -129,9 +139,11 @@ double AovView::depth_along_view(const float* position) const
     return depth;
 }
 
-std::uint32_t AovView::object_of(const Shape* shape) const
+std::uint32_t AovView::object_of(const SurfacePoint& at) const
 {
-    const auto found = objects_.find(shape);
+    if (const auto instance = scene_.instance_of(at))
+        return static_cast<std::uint32_t>(objects_.size()) + *instance + 1;
+    const auto found = objects_.find(at.shape);
     return found == objects_.end() ? 0 : found->second;
 }
 

@@ -41,6 +41,7 @@ std::vector<std::string> object_names(const Scene& scene)
 {
     std::vector<std::string> names;
     for (const SceneObject& object : scene.objects()) names.push_back(object.name);
+    for (const Instance& instance : scene.instances()) names.push_back(instance.name);
     return names;
 }
 
@@ -121,7 +122,7 @@ const std::vector<AovRow>& table()
          "which object the pixel's first sample sees: its line in plumb:ids.object, from 1",
          true,
          nullptr,
-         [](const Seen& seen, const View& view) { return view.object_of(seen.at.shape); },
+         [](const Seen& seen, const View& view) { return view.object_of(seen.at); },
          object_names},
         {{"material", {"id"}, LayerKind::id},
          "",

@@ -11,6 +11,7 @@
 
 #include <cstring>
 #include <mutex>
+#include <unordered_map>
 
 #include <fmt/format.h>
 
@@ -91,19 +92,50 @@ Ray our_ray(const RTCRay& r)
     return {{r.org_x, r.org_y, r.org_z}, {r.dir_x, r.dir_y, r.dir_z}, r.tnear, r.tfar};
 }
 
+inline RTCRayHit intersect_scene(RTCScene scene, const RTCRay& ray)
+{
+    RTCRayHit ray_hit;
+    ray_hit.ray = ray;
+    ray_hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    ray_hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+#if PLUMB_EMBREE_MAJOR >= 4
+    rtcIntersect1(scene, &ray_hit);
+#else
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcIntersect1(scene, &context, &ray_hit);
+#endif
+    return ray_hit;
+}
+
+inline bool is_occluded(RTCScene scene, RTCRay ray)
+{
+#if PLUMB_EMBREE_MAJOR >= 4
+    rtcOccluded1(scene, &ray);
+#else
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcOccluded1(scene, &context, &ray);
+#endif
+    return ray.tfar < 0.f;
+}
+
+void store_bounds(RTCBounds& to, const Box3f& box)
+{
+    to.lower_x = next_float(box.min.x, false);
+    to.lower_y = next_float(box.min.y, false);
+    to.lower_z = next_float(box.min.z, false);
+    to.upper_x = next_float(box.max.x, true);
+    to.upper_y = next_float(box.max.y, true);
+    to.upper_z = next_float(box.max.z, true);
+}
+
 // Primitives as Embree's user geometry: tested in our own arithmetic, one ray at a time.
 template <class UserGeometry>
 void user_bounds(const RTCBoundsFunctionArguments* args)
 {
     const auto& geometry = *static_cast<const UserGeometry*>(args->geometryUserPtr);
-    const Box3f box = geometry.primitives->bounds(args->primID);
-    RTCBounds& b = *args->bounds_o;
-    b.lower_x = next_float(box.min.x, false);
-    b.lower_y = next_float(box.min.y, false);
-    b.lower_z = next_float(box.min.z, false);
-    b.upper_x = next_float(box.max.x, true);
-    b.upper_y = next_float(box.max.y, true);
-    b.upper_z = next_float(box.max.z, true);
+    store_bounds(*args->bounds_o, geometry.primitives->bounds(args->primID));
 }
 
 template <class UserGeometry>
@@ -133,7 +165,7 @@ void user_occluded(const RTCOccludedFunctionNArguments* args)
 
 class Scene::Accel::Builder final : public AccelBuilder {
 public:
-    explicit Builder(Accel& accel) : accel_(accel) {}
+    Builder(Accel& accel, Part& part) : accel_(accel), part_(part) {}
 
     void start_object(std::uint32_t object) { object_ = object; }
 
@@ -149,7 +181,7 @@ public:
 
     void add_user(const Primitives& primitives) override
     {
-        const auto id = static_cast<std::uint32_t>(accel_.object_of_geometry_.size());
+        const auto id = static_cast<std::uint32_t>(part_.object_of_geometry.size());
         accel_.user_geometries_.push_back(std::make_unique<UserGeometry>(UserGeometry{&primitives, id}));
         RTCGeometry geometry = rtcNewGeometry(accel_.device_, RTC_GEOMETRY_TYPE_USER);
         rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(primitives.count()));
@@ -160,23 +192,76 @@ public:
         attach(geometry);
     }
 
-private:
     void attach(RTCGeometry geometry)
     {
         throw_device_error("building the scene");
         rtcCommitGeometry(geometry);
-        rtcAttachGeometryByID(accel_.scene_, geometry,
-                              static_cast<unsigned>(accel_.object_of_geometry_.size()));
+        rtcAttachGeometryByID(part_.scene, geometry, static_cast<unsigned>(part_.object_of_geometry.size()));
         rtcReleaseGeometry(geometry);
-        accel_.object_of_geometry_.push_back(object_);
+        part_.object_of_geometry.push_back(object_);
         throw_device_error("building the scene");
     }
 
+private:
     Accel& accel_;
+    Part& part_;
     std::uint32_t object_ = 0;
 };
 
-Scene::Accel::Accel(const std::vector<SceneObject>& objects, const std::string& instruction_set)
+// An instance sends the ray through its map and on to the group's own scene. Embree asserts that rays are in its range, and
+// Debian's aborts where one is not: those meet nothing.
+struct Scene::Accel::InstanceCallbacks {
+    static const Part& part_of(const Instances& all, unsigned instance)
+    {
+        return (*all.parts)[all.part[instance]];
+    }
+
+    static std::optional<RTCRay> in_group(const Instances& all, unsigned instance, const RTCRay& ray)
+    {
+        const RayD moved = all.instances[instance].to_object(RayD(our_ray(ray)));
+        const Ray rounded(Vec3f(moved.origin), Vec3f(moved.direction), ray.tnear, ray.tfar);
+        if (!is_traceable(rounded)) return std::nullopt;
+        return embree_ray(rounded);
+    }
+
+    static void bounds(const RTCBoundsFunctionArguments* args)
+    {
+        const auto& all = *static_cast<const Instances*>(args->geometryUserPtr);
+        RTCBounds of_group;
+        rtcGetSceneBounds(part_of(all, args->primID).scene, &of_group);
+        const Box3f box = all.instances[args->primID].to_world(
+            Box3f({of_group.lower_x, of_group.lower_y, of_group.lower_z},
+                  {of_group.upper_x, of_group.upper_y, of_group.upper_z}));
+        store_bounds(*args->bounds_o, box);
+    }
+
+    static void intersect(const RTCIntersectFunctionNArguments* args)
+    {
+        if (args->valid[0] == 0) return;
+        const auto& all = *static_cast<const Instances*>(args->geometryUserPtr);
+        auto& ray_hit = *reinterpret_cast<RTCRayHit*>(args->rayhit);
+        const std::optional<RTCRay> ray = in_group(all, args->primID, ray_hit.ray);
+        if (!ray) return;
+        const RTCRayHit found = intersect_scene(part_of(all, args->primID).scene, *ray);
+        if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID) return;
+        ray_hit.ray.tfar = found.ray.tfar;
+        ray_hit.hit.geomID = found.hit.geomID;
+        ray_hit.hit.primID = found.hit.primID;
+        ray_hit.hit.instID[0] = args->primID;
+    }
+
+    static void occluded(const RTCOccludedFunctionNArguments* args)
+    {
+        if (args->valid[0] == 0) return;
+        const auto& all = *static_cast<const Instances*>(args->geometryUserPtr);
+        auto& ray = *reinterpret_cast<RTCRay*>(args->ray);
+        const std::optional<RTCRay> moved = in_group(all, args->primID, ray);
+        if (moved && is_occluded(part_of(all, args->primID).scene, *moved)) ray.tfar = -infinity;
+    }
+};
+
+Scene::Accel::Accel(const std::vector<SceneObject>& objects, const std::vector<Instance>& instances,
+                    const std::string& instruction_set)
 {
     const InstructionSet& set = find_instruction_set(instruction_set);
     if (!set.runs_here())
@@ -190,59 +275,85 @@ Scene::Accel::Accel(const std::vector<SceneObject>& objects, const std::string& 
             set.name, static_cast<int>(rtcGetDeviceError(nullptr))));
     rtcSetDeviceErrorFunction(device_, on_device_error, nullptr);
     rtcSetDeviceMemoryMonitorFunction(device_, on_memory, this);
-
-    scene_ = rtcNewScene(device_);
-    rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST); // no holes along shared edges
-    rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_MEDIUM);
     try {
-        Builder builder(*this);
-        for (std::uint32_t i = 0; i < objects.size(); ++i) {
-            builder.start_object(i);
-            objects[i].shape->add_to(builder);
-        }
+        parts_.emplace_back();
+        fill(parts_[0], objects);
+        scene_ = parts_[0].scene;
+        if (!instances.empty()) add_instances(instances);
         rtcCommitScene(scene_);
         throw_device_error("building the scene");
     } catch (...) {
-        rtcReleaseScene(scene_);
-        rtcReleaseDevice(device_);
+        release();
         throw;
     }
 }
 
+void Scene::Accel::fill(Part& part, const std::vector<SceneObject>& objects)
+{
+    part.scene = rtcNewScene(device_);
+    rtcSetSceneFlags(part.scene, RTC_SCENE_FLAG_ROBUST); // no holes along shared edges
+    rtcSetSceneBuildQuality(part.scene, RTC_BUILD_QUALITY_MEDIUM);
+    Builder builder(*this, part);
+    for (std::uint32_t i = 0; i < objects.size(); ++i) {
+        builder.start_object(i);
+        objects[i].shape->add_to(builder);
+    }
+}
+
+// Groups first: the instances' bounds are theirs.
+void Scene::Accel::add_instances(const std::vector<Instance>& instances)
+{
+    std::unordered_map<const Group*, std::uint32_t> part_of;
+    instances_.instances = instances.data();
+    instances_.part.reserve(instances.size());
+    for (const Instance& instance : instances) {
+        const auto [known, is_new] =
+            part_of.emplace(instance.group.get(), static_cast<std::uint32_t>(parts_.size()));
+        if (is_new) {
+            parts_.emplace_back();
+            fill(parts_.back(), instance.group->objects());
+            rtcCommitScene(parts_.back().scene);
+            throw_device_error("building a group");
+        }
+        instances_.part.push_back(known->second);
+    }
+    instances_.parts = &parts_;
+
+    RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_USER);
+    rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(instances.size()));
+    rtcSetGeometryUserData(geometry, &instances_);
+    rtcSetGeometryBoundsFunction(geometry, InstanceCallbacks::bounds, nullptr);
+    rtcSetGeometryIntersectFunction(geometry, InstanceCallbacks::intersect);
+    rtcSetGeometryOccludedFunction(geometry, InstanceCallbacks::occluded);
+    Builder(*this, parts_[0]).attach(geometry);
+}
+
+void Scene::Accel::release()
+{
+    for (const Part& part : parts_)
+        if (part.scene != nullptr) rtcReleaseScene(part.scene);
+    rtcReleaseDevice(device_);
+}
+
 Scene::Accel::~Accel()
 {
-    rtcReleaseScene(scene_);
-    rtcReleaseDevice(device_);
+    release();
 }
 
 inline Scene::Accel::Hit Scene::Accel::intersect(const Ray& ray) const
 {
-    RTCRayHit ray_hit;
-    ray_hit.ray = embree_ray(ray);
-    ray_hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    ray_hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-#if PLUMB_EMBREE_MAJOR >= 4
-    rtcIntersect1(scene_, &ray_hit);
-#else
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcIntersect1(scene_, &context, &ray_hit);
-#endif
-    if (ray_hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
-    return {object_of_geometry_[ray_hit.hit.geomID], ray_hit.hit.primID};
+    const RTCRayHit found = intersect_scene(scene_, embree_ray(ray));
+    if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
+    const unsigned instance = found.hit.instID[0];
+    if (instance != RTC_INVALID_GEOMETRY_ID) [[unlikely]]
+        return {parts_[instances_.part[instance]].object_of_geometry[found.hit.geomID], found.hit.primID,
+                instance};
+    return {parts_[0].object_of_geometry[found.hit.geomID], found.hit.primID};
 }
 
 inline bool Scene::Accel::occluded(const Ray& ray) const
 {
-    RTCRay r = embree_ray(ray);
-#if PLUMB_EMBREE_MAJOR >= 4
-    rtcOccluded1(scene_, &r);
-#else
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcOccluded1(scene_, &context, &r);
-#endif
-    return r.tfar < 0.f;
+    return is_occluded(scene_, embree_ray(ray));
 }
 
 // Here, so that the way of a ray to Embree is one function.
@@ -251,6 +362,8 @@ std::optional<SurfacePoint> Scene::intersect(const Ray& ray) const
     const Accel::Hit hit = accel_->intersect(ray);
     if (!hit) return std::nullopt;
     const auto surface_point = [&] {
+        if (hit.instance != Accel::Hit::nothing) [[unlikely]]
+            return point_in_instance(ray, hit.instance, hit.object, hit.primitive);
         const SceneObject& object = objects_[hit.object];
         SurfacePoint point = object.shape->surface_at(ray, hit.primitive);
         point.primitive = hit.primitive;

@@ -4,6 +4,10 @@
 
 #include "scene/accel.h"
 
+#include <unordered_set>
+
+#include <fmt/format.h>
+
 namespace plumb {
 namespace {
 
@@ -15,9 +19,18 @@ SceneSphere bounding_sphere(const Box3f& bounds)
 
 } // namespace
 
+Group::Group(std::vector<SceneObject> objects, std::string name)
+    : objects_(std::move(objects)), name_(std::move(name))
+{
+    for (const SceneObject& object : objects_) bounds_.extendBy(object.shape->bounds());
+}
+
 Scene::Scene(std::vector<SceneObject> objects, std::vector<std::unique_ptr<Emitter>> lights,
-             const SceneOptions& options)
-    : options_(options), objects_(std::move(objects)), lights_(std::move(lights))
+             const SceneOptions& options, std::vector<Instance> instances)
+    : options_(options),
+      objects_(std::move(objects)),
+      instances_(std::move(instances)),
+      lights_(std::move(lights))
 {
     const SceneSphere sphere = bounding_sphere(bounds());
     const auto add_emitter = [&](Emitter& emitter) {
@@ -37,7 +50,7 @@ Scene::Scene(std::vector<SceneObject> objects, std::vector<std::unique_ptr<Emitt
     choice_ = LightTree(emitters_, LightTree::Among::all, sphere);
     delta_choice_ = LightTree(emitters_, LightTree::Among::delta, sphere);
 
-    accel_ = std::make_unique<Accel>(objects_, options_.instruction_set);
+    accel_ = std::make_unique<Accel>(objects_, instances_, options_.instruction_set);
 }
 
 Scene::Scene(Scene&&) noexcept = default;
@@ -102,13 +115,58 @@ Box3f Scene::bounds() const
 {
     Box3f bounds;
     for (const SceneObject& object : objects_) bounds.extendBy(object.shape->bounds());
+    for (const Instance& instance : instances_) bounds.extendBy(instance.bounds());
     return bounds;
+}
+
+std::vector<const Group*> Scene::groups() const
+{
+    std::vector<const Group*> groups;
+    std::unordered_set<const Group*> seen;
+    for (const Instance& instance : instances_)
+        if (seen.insert(instance.group.get()).second) groups.push_back(instance.group.get());
+    return groups;
+}
+
+std::optional<std::uint32_t> Scene::instance_of(const SurfacePoint& at) const
+{
+    if (at.instance == nullptr) return std::nullopt;
+    return static_cast<std::uint32_t>(static_cast<const Instance*>(at.instance) - instances_.data());
+}
+
+std::string Scene::name_of(const SurfacePoint& at) const
+{
+    const auto instance = instance_of(at);
+    for (const SceneObject& object : instance ? instances_[*instance].group->objects() : objects_)
+        if (object.shape.get() == at.shape)
+            return instance ? fmt::format("{} in {}", object.name, instances_[*instance].name) : object.name;
+    return "surface";
+}
+
+// Apart from intersect(), so that scenes without instances pay for one test.
+SurfacePoint Scene::point_in_instance(const Ray& ray, std::uint32_t index, std::uint32_t object_index,
+                                      std::uint32_t primitive) const
+{
+    const Instance& instance = instances_[index];
+    const SceneObject& object = instance.group->objects()[object_index];
+    SurfacePoint point = object.shape->surface_at(instance.to_object(RayD(ray)), primitive);
+    point.primitive = primitive;
+    point.shape = object.shape.get();
+    point.bsdf = object.bsdf.get();
+    const bool is_oriented = object.bsdf->is_oriented();
+    Tangents tangents;
+    if (is_oriented) tangents = instance.to_world(point.shape->tangents(point));
+    instance.move_to_world(point, object.shape->primitive_bounds(primitive));
+    if (is_oriented) point.shading = Frame(point.shading.n, tangents.dp_du);
+    return point;
 }
 
 std::uint64_t Scene::triangle_count() const
 {
     std::uint64_t count = 0;
     for (const SceneObject& object : objects_) count += object.shape->triangle_count();
+    for (const Group* group : groups())
+        for (const SceneObject& object : group->objects()) count += object.shape->triangle_count();
     return count;
 }
 
@@ -116,6 +174,9 @@ SceneMemory Scene::memory() const
 {
     SceneMemory memory = accel_->memory();
     for (const SceneObject& object : objects_) memory.meshes += object.shape->memory_bytes();
+    for (const Group* group : groups())
+        for (const SceneObject& object : group->objects()) memory.meshes += object.shape->memory_bytes();
+    memory.meshes += instances_.capacity() * sizeof(Instance);
     for (const auto& light : lights_) memory.pictures += light->memory_bytes();
     return memory;
 }

@@ -60,13 +60,10 @@ std::optional<SurfacePoint> Tracer::intersect_watched(const Ray& ray, RayKind ki
         log(PathEvent::Kind::ray,
             fmt::format("{} ray from {} along {}", name_of(kind), text(ray.origin), text(ray.direction)));
         if (hit) {
-            std::string object = "surface";
-            for (const SceneObject& candidate : scene_.objects())
-                if (candidate.shape.get() == hit->shape) object = candidate.name;
             log(PathEvent::Kind::hit,
                 fmt::format("meets {} (primitive {}) at {}, distance {:.6g}, normal {}, shading normal {}, "
                             "uv ({:.6g} {:.6g})",
-                            object, hit->primitive, text(hit->position), length(hit->position - ray.origin),
+                            scene_.name_of(*hit), hit->primitive, text(hit->position), length(hit->position - ray.origin),
                             text(hit->geometric_normal), text(hit->shading.n), hit->uv.x, hit->uv.y));
         } else {
             log(PathEvent::Kind::escape, "leaves the scene");

@@ -28,13 +28,24 @@ bool lights_near(const Scene& scene, const Vec3f& p, const Vec3f& wi, float size
     return hit->bsdf->has_back() || dot(hit->geometric_normal, wi) > 0.f;
 }
 
-// Looks through points in the boxes around the objects, or around some of very many.
+// Around the objects and the instances, or around some of very many.
+std::vector<Box3f> boxes_in(const Scene& scene)
+{
+    std::vector<Box3f> boxes;
+    const auto add_some = [&](std::size_t count, const auto& box_of) {
+        const std::size_t step = std::max<std::size_t>(1, count / most_objects);
+        for (std::size_t i = 0; i < count; i += step) boxes.push_back(box_of(i));
+    };
+    add_some(scene.objects().size(), [&](std::size_t i) { return scene.objects()[i].shape->bounds(); });
+    add_some(scene.instances().size(), [&](std::size_t i) { return scene.instances()[i].bounds(); });
+    return boxes;
+}
+
+// Looks through points in boxes.
 bool lights_anything(const Scene& scene, const Vec3f& wi)
 {
     const float size = 2.f * length(scene.bounds().size());
-    const std::size_t step = std::max<std::size_t>(1, scene.objects().size() / most_objects);
-    for (std::size_t i = 0; i < scene.objects().size(); i += step) {
-        const Box3f box = scene.objects()[i].shape->bounds();
+    for (const Box3f& box : boxes_in(scene)) {
         for (int k = 0; k < points_along * points_along * points_along; ++k) {
             const Vec3f share((static_cast<float>(k % points_along) + 0.47f) / points_along,
                               (static_cast<float>(k / points_along % points_along) + 0.53f) / points_along,

@@ -2,10 +2,10 @@
 #include "scene_file/build.h"
 
 #include "base/memory.h"
-#include "base/parallel.h"
 #include "scene_file/axis_camera.h"
 #include "scene_file/build_child.h"
 #include "scene_file/foreign_names.h"
+#include "scene_file/groups.h"
 #include "scene_file/placement.h"
 #include "scene_file/property_values.h"
 #include "scene_file/shared_objects.h"
@@ -77,7 +77,10 @@ private:
     void add_child(const Element& child)
     {
         if (child.tag == "emitter" && child.value("type") == "environment") keep_only(environment_, child);
-        children_.push_back(&child);
+        if (kind_of(child) == "shape" && Groups::takes(child))
+            groups_.add(child);
+        else
+            children_.push_back(&child);
     }
 
     void check_shared(const Element& child)
@@ -92,27 +95,13 @@ private:
 
     void build_children()
     {
-        // Some at a time: each may have a thousand messages, most of which are not kept here.
-        constexpr std::size_t most = 1024;
-        for (std::size_t begin = 0; begin < children_.size(); begin += most)
-            build_children(std::span(children_).subspan(begin, std::min(most, children_.size() - begin)));
-    }
-
-    void build_children(std::span<const Element* const> elements)
-    {
-        std::vector<BuiltChild> built(elements.size());
-        parallel_for(elements.size(), 0,
-                     [&](std::size_t i) { built[i] = build_child(*elements[i], context_); });
-        for (std::size_t i = 0; i < built.size(); ++i) {
-            BuiltChild& child = built[i];
-            diagnostics_.add(child.diagnostics);
-            for (const std::filesystem::path& file : child.files) context_.add_file(file);
-            context_.texture_bytes += child.texture_bytes;
-            if (kind_of(*elements[i]) == "shape")
+        plumb::build_children(children_, context_, [&](std::size_t i, BuiltChild& child) {
+            if (kind_of(*children_[i]) == "shape")
                 parts_.objects.push_back(std::move(child.object));
             else if (child.light)
                 parts_.lights.push_back(std::move(child.light));
-        }
+        });
+        parts_.instances = groups_.build(context_);
     }
 
     void check_property(const Element& child)
@@ -234,6 +223,7 @@ private:
     Diagnostics& diagnostics_;
     SceneParts parts_;
     std::vector<const Element*> children_; // shapes and lights
+    Groups groups_;
     const Element* camera_ = nullptr;
     const Element* integrator_ = nullptr;
     const Element* sampler_ = nullptr;
@@ -250,7 +240,7 @@ SceneParts build_scene(const Element& root, const LoadOptions& options, LoadCont
 std::optional<RenderJob> assemble(SceneParts parts, const LoadOptions& options, LoadContext& context)
 {
     Scene scene(std::move(parts.objects), std::move(parts.lights),
-                {context.dialect.emitters_absorb, options.instruction_set});
+                {context.dialect.emitters_absorb, options.instruction_set}, std::move(parts.instances));
     try {
         parts.integrator->prepare(scene);
     } catch (const Error& error) {

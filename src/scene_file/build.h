@@ -10,6 +10,7 @@ namespace plumb {
 
 struct SceneParts {
     std::vector<SceneObject> objects;
+    std::vector<Instance> instances;
     std::vector<std::unique_ptr<Emitter>> lights;
     std::unique_ptr<Camera> camera;
     std::unique_ptr<Integrator> integrator;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "scene_file/build_child.h"
 
+#include "base/parallel.h"
 #include "scene_file/shared_objects.h"
 
 #include <algorithm>
@@ -114,6 +115,25 @@ private:
 BuiltChild build_child(const Element& element, const LoadContext& scene)
 {
     return ChildBuilder(element, scene).build();
+}
+
+void build_children(std::span<const Element* const> elements, LoadContext& context,
+                    const std::function<void(std::size_t, BuiltChild&)>& take)
+{
+    // Some at a time: each may have a thousand messages, most of which are not kept here.
+    constexpr std::size_t most = 1024;
+    for (std::size_t begin = 0; begin < elements.size(); begin += most) {
+        std::vector<BuiltChild> built(std::min(most, elements.size() - begin));
+        parallel_for(built.size(), 0,
+                     [&](std::size_t i) { built[i] = build_child(*elements[begin + i], context); });
+        for (std::size_t i = 0; i < built.size(); ++i) {
+            BuiltChild& child = built[i];
+            context.diagnostics.add(child.diagnostics);
+            for (const std::filesystem::path& file : child.files) context.add_file(file);
+            context.texture_bytes += child.texture_bytes;
+            take(begin + i, child);
+        }
+    }
 }
 
 void keep_only(const Element*& kept, const Element& child, Diagnostics& diagnostics)

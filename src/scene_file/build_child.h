@@ -7,6 +7,8 @@
 #include "plumb/scene/scene.h"
 #include "scene_file/objects.h"
 
+#include <functional>
+
 namespace plumb {
 
 struct BuiltChild {
@@ -19,6 +21,10 @@ struct BuiltChild {
 
 // element: a shape, with its BSDF and emitter, or a light. scene: for its settings; several threads may pass the same.
 BuiltChild build_child(const Element& element, const LoadContext& scene);
+
+// Several at a time. take: called in their order with each one's index, its messages and files being in the context.
+void build_children(std::span<const Element* const> elements, LoadContext& context,
+                    const std::function<void(std::size_t, BuiltChild&)>& take);
 
 // Keeps the one child of its kind; the next one is an error.
 void keep_only(const Element*& kept, const Element& child, Diagnostics& diagnostics);

@@ -26,6 +26,12 @@ constexpr Entry<Shape> shapes[] = {
     {"disk", build<class Disk>, "Disk"},
 };
 
+// Of the kind "shape" as well.
+constexpr Entry<Composite> composites[] = {
+    {"group", build<class GroupOfShapes>, "GroupOfShapes"},
+    {"instance", build<class InstanceOfGroup>, "InstanceOfGroup"},
+};
+
 constexpr Entry<Bsdf> bsdfs[] = {
     {"diffuse", build<class Diffuse>, "Diffuse"},
     {"mirror", build<class Mirror>, "Mirror"},
@@ -124,6 +130,7 @@ std::vector<TypeInfo> all_types()
 {
     std::vector<TypeInfo> types;
     append(types, "shape", shape_types());
+    append(types, "shape", composite_types());
     append(types, "bsdf", bsdf_types());
     append(types, "texture", texture_types());
     append(types, "emitter", emitter_types());
@@ -139,6 +146,11 @@ std::vector<TypeInfo> all_types()
 std::span<const Entry<Shape>> shape_types()
 {
     return shapes;
+}
+
+std::span<const Entry<Composite>> composite_types()
+{
+    return composites;
 }
 
 std::span<const Entry<Bsdf>> bsdf_types()

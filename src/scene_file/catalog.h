@@ -11,6 +11,7 @@ namespace plumb {
 
 class Bsdf;
 class Camera;
+struct Composite;
 class Emitter;
 class Integrator;
 class Sampler;
@@ -24,6 +25,7 @@ struct Entry {
 };
 
 std::span<const Entry<Shape>> shape_types();
+std::span<const Entry<Composite>> composite_types(); // groups and instances
 std::span<const Entry<Bsdf>> bsdf_types();
 std::span<const Entry<Texture>> texture_types();
 std::span<const Entry<Emitter>> emitter_types();

@@ -77,7 +77,8 @@ $$ stands for the sign itself. It stands in <scene> (in suites: in <suite> or <g
 )"},
     {"mesh shape", R"(A surface. <mesh> and <shape> mean the same.
 
-It stands in <scene>, and may hold one <bsdf> (default: diffuse, albedo 0.5) and one <emitter type="area">.
+It stands in <scene>, or in a <shape type="group">, and may hold one <bsdf> (default: diffuse, albedo 0.5) and, in <scene>,
+one <emitter type="area">.
 )"},
     {"bsdf", R"(What a surface is made of.
 
@@ -89,9 +90,9 @@ It stands in the <mesh> or <shape> whose surface it is, in another <bsdf> that c
 It stands in a <bsdf> or <emitter>, with the parameter that it replaces as its name: <texture name="albedo" ...>. Where
 only one parameter can be a texture, the name may be omitted. With an id for <ref>, it may stand in <scene>.
 )"},
-    {"ref", R"(Uses a <bsdf> or <texture> that is defined elsewhere.
+    {"ref", R"(Uses a <bsdf>, a <texture> or, in an instance, a group that is defined elsewhere.
 
-    id      of a <bsdf> or <texture> anywhere in the scene, before or after
+    id      of a <bsdf>, <texture> or <shape type="group"> anywhere in the scene, before or after
     name    of a texture: the parameter that it replaces, as in <texture>
 
 The object is built once, however many use it. It stands in <mesh>, <shape>, <bsdf> or <emitter>. For example:

@@ -137,7 +137,7 @@ constexpr ForeignName names[] = {
     {"shape", "cylinder", "", "use an 'obj' mesh"},
     {"shape", "ply", "", "convert the file to .obj and use 'obj'"},
     {"shape", "serialized", "", "convert the file to .obj and use 'obj'"},
-    {"shape", "instance", "", "repeat the shape with its own toWorld"},
+    {"shape", "shapegroup", "group", ""},
     {"shape", "mesh", "obj", ""},
     {"shape", "trianglemesh", "obj", ""},
 

@@ -28,7 +28,7 @@ const std::vector<Place>& places()
     static const std::vector<Place> places = {
         {"include", whole},
         {"default", whole},
-        {"mesh", scene},
+        {"mesh", scene}, // and in a shape that is a group
         {"shape", scene},
         {"camera", scene},
         {"sampler", scene},

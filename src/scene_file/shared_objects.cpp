@@ -76,12 +76,18 @@ const Element* SharedObjects::find(const Element& ref, LoadContext& context) con
     for (const Element& child : ref.children) context.diagnostics.error(child.place(), rejection(ref, child));
     if (!check_attributes(ref, {"id"}, {"name"}, context.diagnostics)) return nullptr;
     const std::string id = ref.value("id");
-    if (const auto found = by_id_.find(id); found != by_id_.end()) return found->second.front();
+    if (const Element* found = named(id)) return found;
     std::vector<std::string_view> known;
     for (const auto& [name, elements] : by_id_) known.push_back(name);
     context.diagnostics.error(id_place(ref), fmt::format("no <bsdf> or <texture> has the id '{}'{}", id,
                                                          known.empty() ? "" : way_out(id, known)));
     return nullptr;
+}
+
+const Element* SharedObjects::named(std::string_view id) const
+{
+    const auto found = by_id_.find(id);
+    return found == by_id_.end() ? nullptr : found->second.front();
 }
 
 std::shared_ptr<const Bsdf> SharedObjects::bsdf(const Element& element, const SourceLocation& at,

@@ -22,6 +22,9 @@ public:
     // What a <ref> names. Null if there is no such thing, which is reported.
     const Element* find(const Element& ref, LoadContext& context) const;
 
+    // What has the id; null if nothing has.
+    const Element* named(std::string_view id) const;
+
     // element: a <bsdf>; at: where it is used. Null if it cannot be built, which is reported. Once the constructor is done,
     // several threads may ask, each with a context of its own.
     std::shared_ptr<const Bsdf> bsdf(const Element& element, const SourceLocation& at, LoadContext& context);

@@ -74,12 +74,11 @@ public:
 
     void add_to(AccelBuilder& builder) const override { builder.add_user(*this); }
 
-    SurfacePoint surface_at(const Ray& ray, std::uint32_t primitive) const override
+    SurfacePoint surface_at(const RayD& ray, std::uint32_t primitive) const override
     {
-        const Vec3d origin(ray.origin), direction(ray.direction);
-        const double t = dot(plane_, center_ - origin) / dot(plane_, direction);
+        const double t = dot(plane_, center_ - ray.origin) / dot(plane_, ray.direction);
         // A ray in the plane, which Embree's bounds may let pass: any point will do.
-        const Place place = std::isfinite(t) ? place_of(origin + direction * t) : Place{0.0, 0.0};
+        const Place place = std::isfinite(t) ? place_of(ray.origin + ray.direction * t) : Place{0.0, 0.0};
 
         SurfacePoint at;
         at.position = position(place);

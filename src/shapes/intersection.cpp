@@ -10,10 +10,10 @@
 
 namespace plumb {
 
-std::optional<double> intersect_sphere(const Ray& ray, const Vec3f& center, float radius)
+std::optional<double> intersect_sphere(const RayD& ray, const Vec3f& center, float radius)
 {
-    const Vec3d direction(ray.direction);
-    const Vec3d from_center = Vec3d(ray.origin) - Vec3d(center);
+    const Vec3d& direction = ray.direction;
+    const Vec3d from_center = ray.origin - Vec3d(center);
     const double r = radius;
     const double a = dot(direction, direction);
     const double b = -dot(from_center, direction);

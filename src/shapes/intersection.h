@@ -33,11 +33,11 @@ struct Barycentric {
     double u = 0.0;
     double v = 0.0;
 };
-inline Barycentric intersect_triangle(const Ray& ray, const TriangleEdges& triangle)
+inline Barycentric intersect_triangle(const RayD& ray, const TriangleEdges& triangle)
 {
     // [1], equation 4.
-    const Vec3d direction(ray.direction);
-    const Vec3d to_origin = Vec3d(ray.origin) - triangle.corner;
+    const Vec3d& direction = ray.direction;
+    const Vec3d to_origin = ray.origin - triangle.corner;
     const Vec3d p = cross(direction, triangle.edge2);
     const Vec3d q = cross(to_origin, triangle.edge1);
     const double scale = 1.0 / dot(triangle.edge1, p);
@@ -58,6 +58,6 @@ inline Barycentric intersect_triangle(const Ray& ray, const TriangleEdges& trian
 }
 
 // The smallest t with t_min < t < t_max at which the ray meets the sphere from outside or inside.
-std::optional<double> intersect_sphere(const Ray& ray, const Vec3f& center, float radius);
+std::optional<double> intersect_sphere(const RayD& ray, const Vec3f& center, float radius);
 
 } // namespace plumb

@@ -81,7 +81,7 @@ public:
 
     void add_to(AccelBuilder& builder) const override { builder.add_triangles(corners_, triangles_); }
 
-    SurfacePoint surface_at(const Ray& ray, std::uint32_t primitive) const override
+    SurfacePoint surface_at(const RayD& ray, std::uint32_t primitive) const override
     {
         const TriangleEdges& edges = edges_[primitive];
         const Barycentric b = intersect_triangle(ray, edges);

@@ -55,11 +55,11 @@ public:
 
     void add_to(AccelBuilder& builder) const override { builder.add_user(*this); }
 
-    SurfacePoint surface_at(const Ray& ray, std::uint32_t primitive) const override
+    SurfacePoint surface_at(const RayD& ray, std::uint32_t primitive) const override
     {
         // Embree met this sphere with the same arithmetic; should the ranges of t differ, take the nearest point.
-        const Vec3d direction(ray.direction);
-        const Vec3d origin = Vec3d(ray.origin) - Vec3d(center_);
+        const Vec3d& direction = ray.direction;
+        const Vec3d origin = ray.origin - Vec3d(center_);
         const double t = intersect_sphere(ray, center_, radius_)
                              .value_or(-dot(origin, direction) / dot(direction, direction));
         const Vec3d normal = normalize(origin + direction * t);

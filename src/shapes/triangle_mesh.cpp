@@ -62,7 +62,7 @@ public:
         builder.add_triangles(mesh_.positions, mesh_.triangles);
     }
 
-    SurfacePoint surface_at(const Ray& ray, std::uint32_t primitive) const override
+    SurfacePoint surface_at(const RayD& ray, std::uint32_t primitive) const override
     {
         const TriangleCorners t = corners(primitive);
         const TriangleEdges edges = t.edges();
@@ -72,7 +72,7 @@ public:
 
         const Vec3f geometric_normal = normal_length > 0.0
                                            ? front_normal(primitive, normal * (1.0 / normal_length))
-                                           : normalize(-ray.direction);
+                                           : normalize(Vec3f(-ray.direction));
         const Frame shading(shading_normal(primitive, b, geometric_normal));
         const float clearance = triangle_clearance(t, geometric_normal, normal_length);
         return {position(edges, b), clearance, geometric_normal, primitive, shading, 0, uv(primitive, b)};
@@ -124,6 +124,15 @@ public:
     {
         Box3f box;
         for (const Vec3f& p : mesh_.positions) box.extendBy(p); // each belongs to a triangle
+        return box;
+    }
+
+    Box3f primitive_bounds(std::uint32_t primitive) const override
+    {
+        const TriangleCorners t = corners(primitive);
+        Box3f box(t.p0);
+        box.extendBy(t.p1);
+        box.extendBy(t.p2);
         return box;
     }
 

@@ -55,6 +55,12 @@ const std::string scenes[] = {
         ball + "<bsdf type='mirror'/></mesh><mesh type='sphere'><point name='center' value='1,1,1'/><float "
                "name='radius' value='0.5'/><emitter type='area'><color name='radiance' "
                "value='900000,8,7'/></emitter></mesh>"),
+    scene_with("path_mis", "independent", "gaussian",
+               lamp + "<shape type='group' id='pair'>" + ball + "<bsdf type='roughconductor'/></mesh>" +
+                   "<shape type='disk'><bsdf type='diffuse'/></shape></shape>" +
+                   "<shape type='instance'><ref id='pair'/></shape><shape type='instance'><ref id='pair'/>"
+                   "<transform name='toWorld'><matrix value='-1 0.3 0 1.2 0 0.5 0 0.1 0.2 0 0.7 0.5 0 0 0 "
+                   "1'/></transform></shape>"),
 };
 
 int below(TestRandom& random, int limit)

@@ -27,7 +27,35 @@ struct Setting {
     std::string text;
 };
 
-std::optional<Setting> random_setting(TestRandom& random, LampKind kind, double plane)
+// A rectangle that an instance's map, which turns, shears and mirrors, puts to `place`. About as large as told.
+void add_in_instance(LittleScene& little, TestRandom& random, const Vec3d& place, double size, const Vec3d& normal)
+{
+    const auto factor = [&] {
+        return std::pow(10.0, random.between(-1, 1)) * (random.next_1d() < 0.5f ? -1.0 : 1.0);
+    };
+    const double reach = length(place) + 1.0;
+    const Vec3d offset(random.between(-reach, reach), random.between(-reach, reach), random.between(-reach, reach));
+    const Vec3d axes[2] = {Vec3d(random.direction()), Vec3d(random.direction())};
+    const double angles[2] = {random.between(0, 360), random.between(0, 360)};
+    const double x = factor(), y = factor(), z = factor();
+    const Transform map = Transform::translate(offset) * Transform::rotate(axes[0], angles[0]) *
+                          *Transform::scale({x, y, z}) * Transform::rotate(axes[1], angles[1]);
+    // The transpose takes the normal back.
+    Vec3d object_normal(0.0);
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            object_normal[j] += map.rows()[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] * normal[i];
+    const double object_size = size / std::max({std::abs(x), std::abs(y), std::abs(z)});
+    little.instance(ParamsBuilder("shape", "rectangle")
+                        .point("center", Vec3f(map.inverse().point(place)))
+                        .number("width", object_size)
+                        .number("height", object_size)
+                        .vector("normal", Vec3f(normalize(object_normal)))
+                        .build<Rectangle, Shape>(),
+                    diffuse(1.f), map);
+}
+
+std::optional<Setting> random_setting(TestRandom& random, LampKind kind, double plane, bool in_instance)
 {
     const PlacedLamp lamp = place_lamp(random, kind, plane);
     // Close above a large lamp, choosing points by area has too heavy a tail for a t test.
@@ -51,7 +79,10 @@ std::optional<Setting> random_setting(TestRandom& random, LampKind kind, double 
     // Smaller than what is between it and the lamp, and looked at from within that, too.
     const double size = std::min({0.1 * distance, 0.1 * lamp.size, 0.3 * steepness * distance});
     LittleScene little;
-    little.rectangle(Vec3f(place), static_cast<float>(size), static_cast<float>(size), normal, diffuse(1.f));
+    if (in_instance)
+        add_in_instance(little, random, place, size * 0.5, facing);
+    else
+        little.rectangle(Vec3f(place), static_cast<float>(size), static_cast<float>(size), normal, diffuse(1.f));
     auto shape = shape_of(lamp);
     little.add_shape(std::move(shape), diffuse(0.f), Color(1.f));
     Scene scene = little.build();
@@ -88,7 +119,7 @@ std::vector<NamedParams> emitter_samplers(const Scene& scene)
     return result;
 }
 
-void check_lamps(int settings_of_a_kind, std::uint64_t samples, std::uint64_t seed)
+void check_lamps(int settings_of_a_kind, std::uint64_t samples, std::uint64_t seed, bool in_instance = false)
 {
     const FlushDenormals mode;
     TestRandom random(seed);
@@ -99,7 +130,7 @@ void check_lamps(int settings_of_a_kind, std::uint64_t samples, std::uint64_t se
         int lit = 0;
         for (int i = 0; i < settings_of_a_kind; ++i) {
             const auto setting =
-                random_setting(random, kind, planes[static_cast<std::size_t>(i) % std::size(planes)]);
+                random_setting(random, kind, planes[static_cast<std::size_t>(i) % std::size(planes)], in_instance);
             if (!setting || !(setting->expected > 0.0)) continue;
             ++lit;
             for (const NamedParams& named : emitter_samplers(setting->scene)) {
@@ -124,6 +155,12 @@ void check_lamps(int settings_of_a_kind, std::uint64_t samples, std::uint64_t se
 TEST_CASE("lamps anywhere light a receiver as Lambert says", "[statistical][shadow_ray]")
 {
     check_lamps(45, 400, 31);
+}
+
+TEST_CASE("lamps anywhere light a receiver inside an instance as Lambert says",
+          "[statistical][shadow_ray][instance]")
+{
+    check_lamps(45, 400, 33, true);
 }
 
 TEST_CASE("many lamps anywhere light a receiver as Lambert says", "[statistical][shadow_ray][slow]")

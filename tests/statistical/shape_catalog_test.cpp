@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 
 // What every shape of the catalog promises (plumb/model/shape.h), for each sample of its doc block as it is, and mirrored and
-// sheared by toWorld.
+// sheared by toWorld; and inside an instance whose map does that.
 
 #include "plumb/scene/scene.h"
 
@@ -23,15 +23,22 @@ namespace {
 // A shape alone in a scene.
 class Alone {
 public:
-    explicit Alone(std::unique_ptr<Shape> shape) : scene_(scene_of(std::move(shape)))
+    explicit Alone(std::unique_ptr<Shape> shape) : Alone(std::move(shape), nullptr, std::nullopt) {}
+    // Inside an instance. twin: the same surface without instance, if there can be one.
+    Alone(std::unique_ptr<Shape> shape, std::unique_ptr<Shape> twin, const std::optional<Transform>& map)
+        : scene_(scene_of(std::move(shape), map)), twin_(std::move(twin))
     {
+        if (twin_) twin_->prepare_sampling();
         const Box3f box = scene_.bounds();
         center_ = box.center();
         radius_ = 0.5f * length(box.size()) * 1.001f;
     }
 
     const Scene& scene() const { return scene_; }
-    const Shape& shape() const { return *scene_.objects()[0].shape; }
+    bool in_instance() const { return !scene_.instances().empty(); }
+    bool has_shape() const { return twin_ || !in_instance(); }
+    // In the world.
+    const Shape& shape() const { return twin_ ? *twin_ : *scene_.objects()[0].shape; }
     const Vec3f& center() const { return center_; }
     float radius() const { return radius_; }
 
@@ -44,16 +51,21 @@ public:
     }
 
 private:
-    static Scene scene_of(std::unique_ptr<Shape> shape)
+    static Scene scene_of(std::unique_ptr<Shape> shape, const std::optional<Transform>& map)
     {
         shape->prepare_sampling();
         std::vector<SceneObject> objects;
         objects.push_back(
             {std::move(shape), ParamsBuilder("bsdf", "diffuse").build<Diffuse, Bsdf>(), nullptr, "shape"});
-        return Scene(std::move(objects), {});
+        if (!map) return Scene(std::move(objects), {});
+        std::vector<Instance> instances;
+        instances.push_back({*InstanceMap::from(*map),
+                             std::make_shared<const Group>(std::move(objects), "group"), "instance"});
+        return Scene({}, {}, {}, std::move(instances));
     }
 
     Scene scene_;
+    std::unique_ptr<Shape> twin_;
     Vec3f center_;
     float radius_ = 0.f;
 };
@@ -70,6 +82,23 @@ std::string with_transform(std::string xml, const std::string& operations)
     if (const std::size_t at = xml.find(begin); at != xml.npos)
         xml.erase(at, xml.find(end, at) + end.size() - at);
     return xml.insert(xml.rfind("</"), begin + operations + end);
+}
+
+// The same maps as below.
+Transform turned(const std::optional<Transform>& first)
+{
+    return Transform::translate({3, -2, 1}) * Transform::rotate({1, 2, -1}, 50) * *first;
+}
+
+Transform sheared_mirror()
+{
+    return turned(Transform::from_rows(
+        {{{-1.5, 0.6, 0, 0}, {0, 0.8, 0.3, 0}, {0.2, 0, 1.2, 0}, {0, 0, 0, 1}}}));
+}
+
+Transform even_mirror()
+{
+    return turned(Transform::scale({-1.5, 1.5, 1.5}));
 }
 
 // A mirror that shears; or, of shapes that cannot be sheared, one that keeps angles.
@@ -94,6 +123,14 @@ std::vector<Case> cases()
     for (const auto& sample : samples_of(shape_types())) {
         result.push_back({sample->text(), Alone(sample->build(shape_types()))});
         result.push_back({"transformed " + sample->text(), Alone(transformed(sample->text()))});
+        auto twin = transformed(sample->text());
+        const bool is_sheared = !twin->as_ball();
+        result.push_back(
+            {"in an instance: " + sample->text(), Alone(sample->build(shape_types()), std::move(twin),
+                                                        is_sheared ? sheared_mirror() : even_mirror())});
+        if (!is_sheared)
+            result.push_back({"sheared in an instance: " + sample->text(),
+                              Alone(sample->build(shape_types()), nullptr, sheared_mirror())});
     }
     return result;
 }
@@ -137,7 +174,7 @@ TEST_CASE("tangents are the derivatives of the position by uv", "[statistical][s
                 continue;                                     // grazing, another part, or along the ray
             if ((far->uv - at->uv).length() > 0.5f) continue; // across the seam of an angle
             ++compared;
-            const Tangents tangents = test.alone.shape().tangents(*at);
+            const Tangents tangents = tangents_at(*at);
             const double error = tangent_error(tangents, *at, *near);
             // Small, or what curvature leaves, which shrinks with the step.
             wrong += error < 0.005 || error < 0.5 * tangent_error(tangents, *at, *far) ? 0 : 1;
@@ -154,6 +191,7 @@ TEST_CASE("lines meet a shape as often as its area says, and everywhere alike", 
     const std::vector<Case> all = cases();
     const double level = sidak_level(significance, all.size() * 7);
     for (const Case& test : all) {
+        if (!test.alone.has_shape()) continue;
         const Shape& shape = test.alone.shape();
         const double expected = shape.area() / (2.0 * pi_d * sqr<double>(test.alone.radius()));
         const auto along_lines = [&](std::uint64_t n, std::uint64_t seed, const auto& quantity) {
@@ -207,6 +245,7 @@ TEST_CASE("lines meet a shape as often as its area says, and everywhere alike", 
 TEST_CASE("samples of a shape are where a ray meets it, inside its bounds", "[statistical][shape]")
 {
     for (const Case& test : cases()) {
+        if (!test.alone.has_shape()) continue;
         CAPTURE(test.name);
         const FlushDenormals mode;
         const Shape& shape = test.alone.shape();
@@ -269,6 +308,7 @@ TEST_CASE("the solid angle of a shape is that of its area seen from there", "[st
     const std::vector<Case> all = cases();
     const double level = sidak_level(significance, all.size() * 5);
     for (const Case& test : all) {
+        if (test.alone.in_instance()) continue; // nothing is sampled there
         const Shape& shape = test.alone.shape();
         TestRandom places(9);
         int compared = 0;
@@ -300,5 +340,39 @@ TEST_CASE("the solid angle of a shape is that of its area seen from there", "[st
                 20'000, level, 10, 1e-5);
         }
         CHECK(compared == (shape.has_solid_angle() ? 5 : 0));
+    }
+}
+
+TEST_CASE("a shape inside an instance is the shape that toWorld makes", "[statistical][shape][instance]")
+{
+    for (const Case& test : cases()) {
+        if (!test.alone.in_instance() || !test.alone.has_shape()) continue;
+        CAPTURE(test.name);
+        const FlushDenormals mode;
+        const Shape& twin = test.alone.shape();
+        const float size = test.alone.radius();
+        TestRandom random(11);
+        int compared = 0, wrong = 0;
+        for (int i = 0; i < 4000; ++i) {
+            const Ray ray = test.alone.random_line(random);
+            const auto at = test.alone.scene().intersect(ray);
+            if (!at) continue;
+            const SurfacePoint expected = twin.surface_at(ray, at->primitive);
+            const float cosine =
+                std::abs(dot(expected.geometric_normal, ray.direction)) / length(ray.direction);
+            if (cosine < 0.05f || (at->uv - expected.uv).length() > 0.5f) continue; // grazing; across a seam
+            ++compared;
+            const Tangents a = tangents_at(*at), b = twin.tangents(expected);
+            const float unit = length(b.dp_du) + length(b.dp_dv);
+            wrong += length(at->position - expected.position) < 2e-5f * size &&
+                             length(at->geometric_normal - expected.geometric_normal) < 1e-4f &&
+                             length(at->shading.n - expected.shading.n) < 1e-4f &&
+                             (at->uv - expected.uv).length() < 1e-3f &&
+                             length(a.dp_du - b.dp_du) < 5e-3f * unit && length(a.dp_dv - b.dp_dv) < 5e-3f * unit
+                         ? 0
+                         : 1;
+        }
+        CHECK(compared > 500);
+        CHECK(wrong == 0);
     }
 }

@@ -61,6 +61,16 @@ LittleScene& LittleScene::add_shape(std::unique_ptr<Shape> shape, const MakeBsdf
     return *this;
 }
 
+LittleScene& LittleScene::instance(std::unique_ptr<Shape> shape, const MakeBsdf& bsdf, const Transform& map)
+{
+    const std::string name = "instance " + std::to_string(instances_.size());
+    std::vector<SceneObject> objects;
+    objects.push_back({std::move(shape), bsdf(), nullptr, "object of " + name});
+    instances_.push_back({InstanceMap::from(map).value(),
+                          std::make_shared<const Group>(std::move(objects), "group of " + name), name});
+    return *this;
+}
+
 LittleScene& LittleScene::sphere(const Vec3f& center, float radius, const MakeBsdf& bsdf,
                                  std::optional<Color> radiance)
 {
@@ -125,7 +135,7 @@ LittleScene& LittleScene::absorbing_emitters()
 
 Scene LittleScene::build()
 {
-    return Scene(std::move(objects_), std::move(lights_), options_);
+    return Scene(std::move(objects_), std::move(lights_), options_, std::move(instances_));
 }
 
 ParamsBuilder integrator_params(const std::string& type)

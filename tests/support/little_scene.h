@@ -30,6 +30,8 @@ public:
                            const MakeBsdf& bsdf, std::optional<Color> radiance = {});
     LittleScene& add_shape(std::unique_ptr<Shape> shape, const MakeBsdf& bsdf,
                            std::optional<Color> radiance = {});
+    // The only shape of a group, which `map` puts into the scene.
+    LittleScene& instance(std::unique_ptr<Shape> shape, const MakeBsdf& bsdf, const Transform& map);
     // The cube [-1, 1]^3 seen from inside.
     LittleScene& room(const MakeBsdf& bsdf, std::optional<Color> radiance = {});
     LittleScene& point_light(const Vec3f& position, const Color& intensity);
@@ -41,6 +43,7 @@ public:
 
 private:
     std::vector<SceneObject> objects_;
+    std::vector<Instance> instances_;
     std::vector<std::unique_ptr<Emitter>> lights_;
     SceneOptions options_;
 };

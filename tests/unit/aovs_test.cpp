@@ -316,6 +316,13 @@ TEST_CASE("objects with one BSDF have one material", "[unit][aov]")
     CHECK(material_names(two.scene().job.scene).size() == 2);
     CHECK(material_names(two.scene().job.scene).front() == "bsdf 'diffuse' (default)");
     CHECK(two.at(0, 0, "material.id") + two.at(7, 0, "material.id") == 3.f);
+
+    // An instance is one object of as many materials as its group has.
+    const Rendered instance("<shape type='group' id='walls'>" + placed(-5, "") + placed(5, red) +
+                            "</shape><shape type='instance'><ref id='walls'/></shape>");
+    CHECK(instance.at(0, 0, "material.id") + instance.at(7, 0, "material.id") == 3.f);
+    CHECK(instance.at(0, 0, "object.id") == 1.f);
+    CHECK(instance.at(7, 0, "object.id") == 1.f);
 }
 
 TEST_CASE("the order of AOVs' names does not matter, and unknown ones are refused", "[unit][aov]")

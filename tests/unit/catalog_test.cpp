@@ -8,6 +8,7 @@
 #include "plumb/model/sampler.h"
 #include "plumb/model/shape.h"
 #include "plumb/scene_file/scene_file.h"
+#include "model/composite.h"
 #include "scene_file/catalog.h"
 #include "scene_file/manual.h"
 #include "support/catch.h"
@@ -34,6 +35,7 @@ public:
         Image image(1, 1);
         write_image(directory_ / "file.png", image);
         visit(shape_types(), "shape");
+        visit(composite_types(), "shape");
         visit(bsdf_types(), "bsdf");
         visit(texture_types(), "texture");
         visit(emitter_types(), "emitter");

@@ -73,6 +73,11 @@ std::string scene_with(const std::string& kind, const std::string& object, bool 
     std::string body = object;
     if (kind == "bsdf" || is_area) body = in_shape(object);
     if (kind == "texture") body = in_shape("<bsdf type='diffuse'>" + object + "</bsdf>");
+    // A group is seen through an instance, and an instance shows a group.
+    if (object.starts_with("<shape type=\"group\" id=\"pawn\""))
+        body += "<shape type='instance'><ref id='pawn'/></shape>";
+    if (object.starts_with("<shape type=\"instance\""))
+        body += "<shape type='group' id='pawn'><shape type='sphere'/></shape>";
     if (kind == "rfilter")
         return "<scene dialect='plumb'>" + integrator + "<camera type='perspective'>" + object +
                "</camera></scene>";

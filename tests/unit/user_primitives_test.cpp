@@ -22,7 +22,7 @@ public:
     explicit Beads(std::size_t count) : count_(count) {}
 
     void add_to(AccelBuilder& builder) const override { builder.add_user(*this); }
-    SurfacePoint surface_at(const Ray& ray, std::uint32_t primitive) const override
+    SurfacePoint surface_at(const RayD& ray, std::uint32_t primitive) const override
     {
         SurfacePoint at;
         const double t = intersect_sphere(ray, center(primitive), 1.f).value();

@@ -28,6 +28,20 @@ struct alignas(16) Ray {
     Vec3f at(float t) const { return origin + direction * t; }
 };
 
+// A ray in double precision: that of a float ray where an instance's map has moved it (model/instance_map.h), or the float ray
+// itself.
+struct RayD {
+    RayD() = default;
+    RayD(const Ray& ray) // NOLINT(google-explicit-constructor): the same ray
+        : origin(ray.origin), direction(ray.direction), t_min(ray.t_min), t_max(ray.t_max)
+    {}
+
+    Vec3d origin{0.0};
+    Vec3d direction{0.0};
+    double t_min = 0.0;
+    double t_max = static_cast<double>(infinity);
+};
+
 // Whether a ray can be traced: not a number, infinity and coordinates that add up to more than Embree's limit of a
 // single one can not.
 inline bool is_traceable(const Ray& ray)

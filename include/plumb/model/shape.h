@@ -56,7 +56,8 @@ struct Ball {
     float radius = 0.f;
 };
 
-// Conventions. World space: toWorld is applied when a shape is built. The front side is the one that normals point
+// Conventions. World space: toWorld is applied when a shape is built. Of a shape in a group, world space is the space of the
+// group, which each instance maps to the scene's (instance_map.h). The front side is the one that normals point
 // to. u_select in [0, 1) has 53 random bits and chooses among parts; u places the point inside the part.
 class Shape {
 public:
@@ -66,7 +67,7 @@ public:
 
     // The point where `ray`, which meets `primitive` according to Embree, meets it according to our own arithmetic.
     // Leaves bsdf and emitter null.
-    virtual SurfacePoint surface_at(const Ray& ray, std::uint32_t primitive) const = 0;
+    virtual SurfacePoint surface_at(const RayD& ray, std::uint32_t primitive) const = 0;
 
     // The derivatives by uv at a point that surface_at returned. Where uv have none (at a pole of a sphere, or where the
     // uv of a triangle lie on a line): two directions in the surface. Parallel only on triangles without area.
@@ -88,10 +89,15 @@ public:
 
     virtual float area() const = 0;
     virtual Box3f bounds() const = 0;
+    // Of one primitive, or of more than that.
+    virtual Box3f primitive_bounds(std::uint32_t /*primitive*/) const { return bounds(); }
     virtual DirectionCone normals() const = 0;                           // holds all geometric normals
     virtual std::optional<Ball> as_ball() const { return std::nullopt; } // if its surface is that of a ball
     virtual std::uint64_t triangle_count() const { return 0; }
     virtual std::uint64_t memory_bytes() const { return 0; } // of its mesh, if it has one
 };
+
+// The derivatives by uv in the scene's world space, at a point that Scene returned: also inside an instance.
+Tangents tangents_at(const SurfacePoint& at);
 
 } // namespace plumb

@@ -17,6 +17,7 @@ class Scene;
 class Shape;
 struct FirstSurfaces;
 struct SeenSurface;
+struct SurfacePoint;
 
 struct AovView;
 
@@ -47,17 +48,19 @@ std::vector<std::pair<std::string, std::vector<std::string>>> id_tables(std::spa
 struct AovView {
     AovView(const Scene& scene, const Camera& camera);
     double depth_along_view(const float* position) const; // in front of the camera
-    std::uint32_t object_of(const Shape* shape) const;    // from 1
-    std::uint32_t material_of(const Bsdf* bsdf) const;    // from 1
+    // From 1: the scene's objects, and then its instances, each as a whole.
+    std::uint32_t object_of(const SurfacePoint& at) const;
+    std::uint32_t material_of(const Bsdf* bsdf) const; // from 1
 
 private:
+    const Scene& scene_;
     double eye_[3];
     double forward_[3]; // of unit length
     std::unordered_map<const Shape*, std::uint32_t> objects_;
     std::unordered_map<const Bsdf*, std::uint32_t> materials_;
 };
 
-// The materials of the objects, each once, in the order of the objects.
+// The materials of the objects, in instances too, each once, in the order of the objects.
 std::vector<std::string> material_names(const Scene& scene);
 
 // Measures samples for a film with the layers of these names. Scene and camera must outlive it.

@@ -5,6 +5,7 @@
 
 #include "plumb/model/bsdf.h"
 #include "plumb/model/emitter.h"
+#include "plumb/model/instance_map.h"
 #include "plumb/model/shape.h"
 #include "plumb/scene/instruction_set.h"
 #include "plumb/scene/light_tree.h"
@@ -22,6 +23,27 @@ struct SceneObject {
     std::unique_ptr<Emitter> emitter;
     std::string name;     // "mesh 'obj' (cbox.xml:12)", for people
     std::string material; // "floor", "bsdf 'diffuse' (cbox.xml:14)" likewise; objects with one BSDF have one name
+};
+
+// Objects that instances put into the scene, any number of times. Built once; they are in the scene nowhere else. No emitters.
+class Group {
+public:
+    Group(std::vector<SceneObject> objects, std::string name);
+    const std::vector<SceneObject>& objects() const { return objects_; }
+    const Box3f& bounds() const { return bounds_; } // in its own space
+    const std::string& name() const { return name_; } // "group 'tree' (garden.xml:5)", for people
+
+private:
+    std::vector<SceneObject> objects_;
+    std::string name_;
+    Box3f bounds_;
+};
+
+struct Instance : InstanceMap {
+    Box3f bounds() const { return to_world(group->bounds()); }
+
+    std::shared_ptr<const Group> group; // never null
+    std::string name;                   // "instance of 'tree' (garden.xml:12)", for people
 };
 
 struct SceneOptions {
@@ -42,7 +64,7 @@ class Scene {
 public:
     // lights: the emitters that no shape carries. Builds the acceleration structure; throws Error if Embree cannot.
     Scene(std::vector<SceneObject> objects, std::vector<std::unique_ptr<Emitter>> lights,
-          const SceneOptions& options = {});
+          const SceneOptions& options = {}, std::vector<Instance> instances = {});
     Scene(Scene&&) noexcept;
     Scene& operator=(Scene&&) noexcept;
     ~Scene();
@@ -77,8 +99,13 @@ public:
     bool emitters_absorb() const { return options_.emitters_absorb; }
     const std::vector<const Emitter*>& emitters() const { return emitters_; } // all, in document order
     const std::vector<SceneObject>& objects() const { return objects_; }
+    const std::vector<Instance>& instances() const { return instances_; }
+    std::vector<const Group*> groups() const; // those of the instances, each once, in their order
+    // What SurfacePoint::instance is: an index into instances(). Nothing outside of instances.
+    std::optional<std::uint32_t> instance_of(const SurfacePoint& at) const;
+    std::string name_of(const SurfacePoint& at) const; // the object, and its instance, for people
     Box3f bounds() const;
-    std::uint64_t triangle_count() const;
+    std::uint64_t triangle_count() const; // as stored: those of a group count once
     SceneMemory memory() const;
     const SceneOptions& options() const { return options_; }
     std::string embree_version() const; // "3.13.5"
@@ -90,11 +117,14 @@ private:
         std::uint32_t emitter_index = 0; // into emitters_
         bool is_oriented = false;        // Bsdf::is_oriented
     };
+    SurfacePoint point_in_instance(const Ray& ray, std::uint32_t instance, std::uint32_t object,
+                                   std::uint32_t primitive) const;
     std::optional<EmitterSample> sample_chosen(const LightTree::Choice& choice, const LightReceiver& receiver,
                                                const Vec2f& u, Measure measure) const;
 
     SceneOptions options_;
     std::vector<SceneObject> objects_;
+    std::vector<Instance> instances_; // whose addresses points have
     std::vector<std::unique_ptr<Emitter>> lights_;
     std::vector<const Emitter*> emitters_; // those of objects_, then lights_
     std::vector<ObjectFacts> facts_;       // of objects_
