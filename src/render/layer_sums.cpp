@@ -26,8 +26,8 @@ constexpr double large_unit = 0x1p-20;
 
 std::size_t sums_per_component(LayerKind kind)
 {
-    if (kind == LayerKind::id) return 0;
-    return is_variance(kind) ? variance_sums : 1;
+    if (is_variance(kind)) return variance_sums;
+    return kind == LayerKind::id ? 0 : 1;
 }
 
 struct Sizes {
