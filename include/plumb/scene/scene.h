@@ -94,6 +94,7 @@ public:
     EmitterValue emission(const LightReceiver& receiver, const Vec3f& wi, const SurfacePoint* hit,
                           Measure measure = Measure::best) const;
 
+    bool has_null_surfaces() const { return has_null_surfaces_; } // surfaces that light passes straight through
     bool has_delta_emitters() const { return delta_choice_.can_sample(); }
     bool emitters_absorb() const { return options_.emitters_absorb; }
     const std::vector<const Emitter*>& emitters() const { return emitters_; } // all, in document order
@@ -130,6 +131,7 @@ private:
     std::vector<std::uint32_t> infinite_;  // indices of infinite, not delta emitters
     LightTree choice_;
     LightTree delta_choice_; // among delta emitters alone
+    bool has_null_surfaces_ = false;
     std::unique_ptr<Accel> accel_;
 };
 
