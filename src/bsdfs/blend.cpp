@@ -58,8 +58,8 @@ public:
         const float weight_of_second = weight(at);
         const bool is_second = u_lobe < weight_of_second;
         const float probability = is_second ? weight_of_second : 1.f - weight_of_second;
-        const float u_rest = is_second ? u_lobe / weight_of_second
-                                       : (u_lobe - weight_of_second) / (1.f - weight_of_second);
+        const float u_rest =
+            is_second ? u_lobe / weight_of_second : (u_lobe - weight_of_second) / (1.f - weight_of_second);
         auto sampled = (is_second ? second_ : first_)->sample(at, wi, std::min(u_rest, one_minus_epsilon), u);
         if (!sampled) return sampled;
         if (sampled->is_delta()) {

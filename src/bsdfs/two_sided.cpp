@@ -56,10 +56,11 @@ private:
 
     static void refuse(const Params& params, std::size_t i)
     {
-        params.fail_bsdf(i, params.bsdf(i)->lobes().has_any(Lobe::null)
-                                ? "what lets light pass stands around 'twosided', not in it: <bsdf type=\"mask\"> "
-                                  "<bsdf type=\"twosided\"> ... </bsdf> </bsdf>"
-                                : "a BSDF that transmits light has a back already; use it without 'twosided'");
+        params.fail_bsdf(
+            i, params.bsdf(i)->lobes().has_any(Lobe::null)
+                   ? "what lets light pass stands around 'twosided', not in it: <bsdf type=\"mask\"> "
+                     "<bsdf type=\"twosided\"> ... </bsdf> </bsdf>"
+                   : "a BSDF that transmits light has a back already; use it without 'twosided'");
     }
 
     std::shared_ptr<const Bsdf> front_;

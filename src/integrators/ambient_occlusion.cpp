@@ -51,8 +51,7 @@ private:
             const float pdf = hemisphere_pdf(warp_, w);
             const Vec3f direction = at.shading.to_world(w);
             const bool leaves = pdf > 0.f && dot(direction, at.geometric_normal) > 0.f;
-            if (leaves)
-                sum += tracer.transmittance(at.spawn_ray(direction)) * (cos_theta(w) * inv_pi / pdf);
+            if (leaves) sum += tracer.transmittance(at.spawn_ray(direction)) * (cos_theta(w) * inv_pi / pdf);
         }
         return sum / static_cast<float>(samples_);
     }

@@ -89,7 +89,8 @@ void DirectTechnique::find(Tracer& tracer, Sampler& sampler, const Vertex& verte
     if (value.f_cos.is_black()) return;
     look_along(tracer, vertex, wo_world, [&](const SurfacePoint* hit, const Color& radiance) {
         if (radiance.is_black()) return;
-        take({value.f_cos * radiance, sampled->pdf, other.density(tracer.scene(), vertex, wo_world, value, hit)});
+        take({value.f_cos * radiance, sampled->pdf,
+              other.density(tracer.scene(), vertex, wo_world, value, hit)});
     });
 }
 

@@ -11,8 +11,8 @@ namespace plumb {
 
 // How long paths get.
 struct PathLimits {
-    int max_depth = -1;     // surface bounces; -1: any number
-    int roulette_depth = 3; // bounces before roulette starts
+    int max_depth = -1;        // surface bounces; -1: any number
+    int roulette_depth = 3;    // bounces before roulette starts
     bool count_passes = false; // through null lobes, as bounces
 
     PathLimits() = default;

@@ -208,8 +208,7 @@ std::optional<SurfacePoint> Scene::intersect(const Ray& ray) const
     const Accel::Hit hit = accel_->intersect(ray);
     if (!hit) return std::nullopt;
     if (hit.instance != Accel::Hit::nothing) [[unlikely]]
-        return emplace_with(
-            [&] { return point_in_instance(ray, hit.instance, hit.object, hit.primitive); });
+        return emplace_with([&] { return point_in_instance(ray, hit.instance, hit.object, hit.primitive); });
     const auto surface_point = [&] {
         const SceneObject& object = objects_[hit.object];
         SurfacePoint point = object.shape->surface_at(ray, hit.primitive);

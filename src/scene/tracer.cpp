@@ -63,8 +63,9 @@ std::optional<SurfacePoint> Tracer::intersect_watched(const Ray& ray, RayKind ki
             log(PathEvent::Kind::hit,
                 fmt::format("meets {} (primitive {}) at {}, distance {:.6g}, normal {}, shading normal {}, "
                             "uv ({:.6g} {:.6g})",
-                            scene_.name_of(*hit), hit->primitive, text(hit->position), length(hit->position - ray.origin),
-                            text(hit->geometric_normal), text(hit->shading.n), hit->uv.x, hit->uv.y));
+                            scene_.name_of(*hit), hit->primitive, text(hit->position),
+                            length(hit->position - ray.origin), text(hit->geometric_normal),
+                            text(hit->shading.n), hit->uv.x, hit->uv.y));
         } else {
             log(PathEvent::Kind::escape, "leaves the scene");
         }

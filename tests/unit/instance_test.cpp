@@ -46,7 +46,8 @@ std::string bumpy_ball()
     std::string text;
     for (int i = 0; i <= n; ++i)
         for (int j = 0; j <= n; ++j) {
-            const double a = pi_d * i / n, b = 2.0 * pi_d * j / n, r = 1.0 + 0.1 * std::sin(9 * a) * std::sin(7 * b);
+            const double a = pi_d * i / n, b = 2.0 * pi_d * j / n,
+                         r = 1.0 + 0.1 * std::sin(9 * a) * std::sin(7 * b);
             text += fmt::format("v {:.6f} {:.6f} {:.6f}\n", r * std::sin(a) * std::cos(b),
                                 r * std::sin(a) * std::sin(b), r * std::cos(a));
         }
@@ -62,10 +63,9 @@ std::string bumpy_ball()
 
 TEST_CASE("a group is seen through its instances alone", "[unit][instance]")
 {
-    const LoadedScene loaded = load_text(start + instance("pair", "<translate value='0,0,5'/>") +
-                                         group("pair", ball + disk) +
-                                         instance("pair", "<scale value='-2,1,1'/><translate value='9,0,5'/>") +
-                                         "</scene>");
+    const LoadedScene loaded =
+        load_text(start + instance("pair", "<translate value='0,0,5'/>") + group("pair", ball + disk) +
+                  instance("pair", "<scale value='-2,1,1'/><translate value='9,0,5'/>") + "</scene>");
     const Scene& scene = loaded.job.scene;
     CHECK(loaded.warnings.empty());
     CHECK(scene.objects().empty());
@@ -97,7 +97,8 @@ TEST_CASE("groups that nothing shows are warned of", "[unit][instance]")
 {
     const LoadedScene loaded = load_text(start + group("lost", ball) + disk + "</scene>");
     REQUIRE(loaded.warnings.size() == 1);
-    CHECK_THAT(loaded.warnings[0].message, ContainsSubstring("no <shape type=\"instance\"> names the group 'lost'"));
+    CHECK_THAT(loaded.warnings[0].message,
+               ContainsSubstring("no <shape type=\"instance\"> names the group 'lost'"));
     CHECK_FALSE(loaded.job.scene.intersect({Vec3f(0, 0, 5), Vec3f(0, 0, -1), 0.f, 4.5f}));
 }
 
@@ -117,8 +118,9 @@ TEST_CASE("BSDFs by reference serve groups", "[unit][instance]")
 
 TEST_CASE("an instance is one object in the layer of ids", "[unit][instance][aov]")
 {
-    const LoadedScene loaded = load_text(start + group("g", ball + disk) + disk + instance("g", "<translate value='5,0,0'/>") +
-                                         instance("g", "<translate value='9,0,0'/>") + "</scene>");
+    const LoadedScene loaded =
+        load_text(start + group("g", ball + disk) + disk + instance("g", "<translate value='5,0,0'/>") +
+                  instance("g", "<translate value='9,0,0'/>") + "</scene>");
     const Scene& scene = loaded.job.scene;
     const AovView view(scene, *loaded.job.camera);
     const auto id_at = [&](float x) {
@@ -138,18 +140,20 @@ TEST_CASE("an instance is one object in the layer of ids", "[unit][instance][aov
 
 TEST_CASE("mistakes inside groups are found, and instances in one place", "[unit][instance][check]")
 {
-    const LoadedScene loaded = load_text(
-        "<scene dialect='plumb'><integrator type='path_mis'/>" + camera +
-        group("g", "<shape type='rectangle'><bsdf type='dielectric'/></shape>") +
-        "<emitter type='pointlight'><point name='position' value='0,0,-1'/></emitter>" +
-        instance("g", "<translate value='0,0,5'/>") + instance("g", "<translate value='0,0,5'/>") + "</scene>");
+    const LoadedScene loaded =
+        load_text("<scene dialect='plumb'><integrator type='path_mis'/>" + camera +
+                  group("g", "<shape type='rectangle'><bsdf type='dielectric'/></shape>") +
+                  "<emitter type='pointlight'><point name='position' value='0,0,-1'/></emitter>" +
+                  instance("g", "<translate value='0,0,5'/>") + instance("g", "<translate value='0,0,5'/>") +
+                  "</scene>");
     std::string all;
     for (const Doubt& doubt : find_doubts(loaded.job)) all += doubt.object + ": " + doubt.text + "\n";
     CHECK_THAT(all, ContainsSubstring("light enters its material, but the surface is not closed"));
     CHECK_THAT(all, ContainsSubstring("it is in the same place as instance of 'g'"));
 }
 
-TEST_CASE("maps that floats cannot hold are refused, and rays that Embree refuses meet nothing", "[unit][instance]")
+TEST_CASE("maps that floats cannot hold are refused, and rays that Embree refuses meet nothing",
+          "[unit][instance]")
 {
     CHECK_FALSE(InstanceMap::from(*Transform::scale({1e10, 1, 1})));
     CHECK_FALSE(InstanceMap::from(*Transform::scale({1e-10, 1, 1})));
@@ -179,7 +183,7 @@ TEST_CASE("a hundred thousand instances of ten thousand triangles take little me
     const LoadedScene loaded = load_scene(file);
     const Scene& scene = loaded.job.scene;
     CHECK(scene.instances().size() == 100'000);
-    CHECK(scene.triangle_count() == 10'082);
+    CHECK(scene.triangle_count() == 9'940);
     CHECK(resident_bytes() - before < 1'000'000'000);
     CHECK(scene.memory().meshes + scene.memory().acceleration < 100'000'000);
     const auto hit = scene.intersect({Vec3f(300, 600, 0), Vec3f(0, 0, 1)});

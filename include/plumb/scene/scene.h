@@ -29,7 +29,7 @@ class Group {
 public:
     Group(std::vector<SceneObject> objects, std::string name);
     const std::vector<SceneObject>& objects() const { return objects_; }
-    const Box3f& bounds() const { return bounds_; } // in its own space
+    const Box3f& bounds() const { return bounds_; }   // in its own space
     const std::string& name() const { return name_; } // "group 'tree' (garden.xml:5)", for people
 
 private:
@@ -94,7 +94,7 @@ public:
     EmitterValue emission(const LightReceiver& receiver, const Vec3f& wi, const SurfacePoint* hit,
                           Measure measure = Measure::best) const;
 
-    bool has_null_surfaces() const { return has_null_surfaces_; } // surfaces that light passes straight through
+    bool has_null_surfaces() const { return has_null_surfaces_; } // light passes straight through them
     bool has_delta_emitters() const { return delta_choice_.can_sample(); }
     bool emitters_absorb() const { return options_.emitters_absorb; }
     const std::vector<const Emitter*>& emitters() const { return emitters_; } // all, in document order
