@@ -34,7 +34,7 @@ LAYERS = [
 
 # Library: what its includes look like, and the only files that have them (patterns as in pathlib's match).
 DOORS = {
-    "Embree": (r"embree[34]?/", ["src/scene/accel*.cpp"]),
+    "Embree": (r"embree[34]?/", ["src/scene/accel*"]),
     "OpenImageIO": (r"OpenImageIO/", ["src/image/oiio/*"]),
     "OpenEXR": (r"OpenEXR/|Imf|Iex|IlmThread", ["src/image/oiio/*.cpp"]),
     "tinyobjloader": (r"tiny_?obj", ["src/shapes/obj/*.cpp"]),

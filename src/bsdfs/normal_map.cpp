@@ -43,6 +43,7 @@ public:
     Lobes lobes() const override { return lobes_; }
     bool is_oriented() const override { return true; }
     bool has_back() const override { return has_back_; }
+    float opacity(const SurfacePoint& at) const override { return bsdf_->opacity(at); }
     bool is_reciprocal() const override { return false; } // its cosine is that of the bent normal
 
     BsdfValue evaluate(const SurfacePoint& at, const Vec3f& wi, const Vec3f& wo) const override

@@ -26,8 +26,8 @@ public:
           is_oriented_(front_->is_oriented() || back_->is_oriented()),
           is_reciprocal_(front_->is_reciprocal() && back_->is_reciprocal())
     {
-        if (front_->lobes().has_any(transmission_lobes)) refuse(params, 0);
-        if (params.bsdf_count() > 1 && back_->lobes().has_any(transmission_lobes)) refuse(params, 1);
+        if (front_->lobes().has_any(passing)) refuse(params, 0);
+        if (params.bsdf_count() > 1 && back_->lobes().has_any(passing)) refuse(params, 1);
     }
 
     Lobes lobes() const override { return lobes_; }
@@ -50,11 +50,17 @@ public:
     }
 
 private:
+    static constexpr Lobes passing = transmission_lobes | Lobe::null;
+
     static Vec3f turned(const Vec3f& w) { return {w.x, w.y, -w.z}; }
 
     static void refuse(const Params& params, std::size_t i)
     {
-        params.fail_bsdf(i, "a BSDF that transmits light has a back already; use it without 'twosided'");
+        params.fail_bsdf(
+            i, params.bsdf(i)->lobes().has_any(Lobe::null)
+                   ? "what lets light pass stands around 'twosided', not in it: <bsdf type=\"mask\"> "
+                     "<bsdf type=\"twosided\"> ... </bsdf> </bsdf>"
+                   : "a BSDF that transmits light has a back already; use it without 'twosided'");
     }
 
     std::shared_ptr<const Bsdf> front_;

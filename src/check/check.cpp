@@ -9,8 +9,8 @@
 #include "plumb/scene/tracer.h"
 
 #include <algorithm>
-#include <utility>
 #include <fmt/format.h>
+#include <utility>
 
 namespace plumb {
 
@@ -21,6 +21,11 @@ constexpr int samples = 256;
 bool transmits(const Bsdf& bsdf)
 {
     return bsdf.lobes().has_any(transmission_lobes);
+}
+
+bool passes(const Bsdf& bsdf)
+{
+    return bsdf.lobes().has_any(Lobe::null);
 }
 
 class Checker {
@@ -118,7 +123,7 @@ private:
             const Vec3f direction = Frame(point.normal).to_world(square_to_cosine_hemisphere(u_direction));
             const Vec3f origin = offset_origin(point.position, point.clearance, point.normal, direction);
             const auto hit = scene_.intersect({origin, direction});
-            if (!hit) return std::nullopt;
+            if (!hit || passes(*hit->bsdf)) return std::nullopt;
             reach = std::max(reach, length(hit->position - origin));
         }
         return reach;
@@ -170,7 +175,7 @@ private:
             if (around && (around->shape != hit->shape || around->instance != hit->instance)) return;
             around = *hit;
         }
-        if (!around) return;
+        if (!around || passes(*around->bsdf)) return;
         const MeshFacts facts = mesh_facts(*around->shape);
         if (facts.is_closed && facts.volume > 0.0) add(scene_.name_of(*around), "the camera is inside it");
     }
@@ -204,7 +209,8 @@ private:
     const Scene& scene_;
     float size_;
     std::unique_ptr<Sampler> sampler_;
-    std::vector<std::pair<const SceneObject*, MeshFacts>> facts_; // of the scene's objects, and of the groups'
+    std::vector<std::pair<const SceneObject*, MeshFacts>>
+        facts_;                 // of the scene's objects, and of the groups'
     std::vector<Edge> borders_; // open edges of every object that light enters, sorted
     std::vector<Doubt> doubts_;
 };

@@ -5,8 +5,8 @@
 #include "plumb/sampling/sampling.h"
 
 #include <algorithm>
-#include <tuple>
 #include <fmt/format.h>
+#include <tuple>
 
 namespace plumb {
 
@@ -24,7 +24,8 @@ bool transmits(const SceneObject& object)
 Ray in_scene(const InstanceMap* map, const Ray& ray)
 {
     if (map == nullptr) return ray;
-    return {Vec3f(map->to_world(Vec3d(ray.origin))), map->to_world(Tangents{ray.direction, Vec3f(0.f)}).dp_du};
+    return {Vec3f(map->to_world(Vec3d(ray.origin))),
+            map->to_world(Tangents{ray.direction, Vec3f(0.f)}).dp_du};
 }
 
 // Whether all that is seen from a side of the surfaces are backs: the inside of a body.
@@ -132,9 +133,8 @@ std::optional<Doubt> repeated_instance(const Scene& scene)
     const auto key = [](const Instance* i) { return std::tie(i->group, i->rows()); };
     std::stable_sort(sorted.begin(), sorted.end(),
                      [&](const Instance* a, const Instance* b) { return key(a) < key(b); });
-    const auto same = std::adjacent_find(sorted.begin(), sorted.end(), [&](const Instance* a, const Instance* b) {
-        return key(a) == key(b);
-    });
+    const auto same = std::adjacent_find(
+        sorted.begin(), sorted.end(), [&](const Instance* a, const Instance* b) { return key(a) == key(b); });
     if (same == sorted.end()) return std::nullopt;
     return Doubt{(*std::next(same))->name,
                  fmt::format("it is in the same place as {}; remove one of them", (*same)->name)};

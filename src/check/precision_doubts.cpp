@@ -103,9 +103,8 @@ std::optional<Doubt> doubt_of_object(const std::string& name, const Box3f& bound
     if (bounds.isEmpty()) return {};
     const double coordinate = largest_coordinate(bounds), size = size_of(bounds);
     if (!(size < fewest_steps_of_object * step_at(coordinate))) return {};
-    return Doubt{name,
-                 fmt::format("it is too small for 32-bit floats at its position: {} its size of {:.3g}",
-                             steps_text(coordinate, size), size)};
+    return Doubt{name, fmt::format("it is too small for 32-bit floats at its position: {} its size of {:.3g}",
+                                   steps_text(coordinate, size), size)};
 }
 
 } // namespace
@@ -116,7 +115,8 @@ std::vector<Doubt> precision_doubts(const RenderJob& job)
     if (auto scene = doubt_of_scene(job.scene)) return {*std::move(scene)}; // and so is all that is in it
     if (auto view = doubt_of_view(job)) doubts.push_back(*std::move(view));
     for (const SceneObject& object : job.scene.objects())
-        if (auto one = doubt_of_object(object.name, object.shape->bounds())) doubts.push_back(*std::move(one));
+        if (auto one = doubt_of_object(object.name, object.shape->bounds()))
+            doubts.push_back(*std::move(one));
     for (const Instance& instance : job.scene.instances())
         if (auto one = doubt_of_object(instance.name, instance.bounds())) {
             doubts.push_back(*std::move(one));

@@ -21,9 +21,8 @@ void log_facts(const SceneRequest& request, const LoadedScene& loaded)
     const Scene& scene = loaded.job.scene;
     const Vec2i resolution = loaded.job.camera->resolution();
     const Box3f bounds = scene.bounds();
-    const std::string instances = scene.instances().empty()
-                                      ? std::string()
-                                      : fmt::format(", instances {}", scene.instances().size());
+    const std::string instances =
+        scene.instances().empty() ? std::string() : fmt::format(", instances {}", scene.instances().size());
     print_log(fmt::format("scene: objects {}, triangles {}, emitters {}{}", scene.objects().size(),
                           scene.triangle_count(), scene.emitters().size(), instances));
     if (!bounds.isEmpty())

@@ -3,6 +3,7 @@
 // [1] Landis 2002, "Production-Ready Global Illumination", SIGGRAPH course 16
 
 #include "integrators/hemisphere_warp.h"
+#include "integrators/see_through.h"
 #include "model/plugin.h"
 #include "plumb/model/integrator.h"
 #include "plumb/scene/tracer.h"
@@ -30,23 +31,31 @@ public:
 
     Color radiance(Tracer& tracer, Sampler& sampler, const Ray& ray) const override
     {
-        const auto hit = tracer.intersect(ray, RayKind::camera);
-        if (!hit) return Color(0.f);
         float sum = 0.f;
-        for (int i = 0; i < samples_; ++i) {
-            const Vec3f w = sample_hemisphere(warp_, sampler.next_2d());
-            const float pdf = hemisphere_pdf(warp_, w);
-            const Vec3f direction = hit->shading.to_world(w);
-            const bool leaves = pdf > 0.f && dot(direction, hit->geometric_normal) > 0.f;
-            if (leaves && !tracer.occluded(hit->spawn_ray(direction))) sum += cos_theta(w) * inv_pi / pdf;
-        }
-        return Color(sum / static_cast<float>(samples_));
+        see_through(tracer, ray, [&](const SurfacePoint* at, float fraction, float opacity) {
+            if (at && opacity > 0.f) sum += fraction * opacity * open_part(tracer, sampler, *at);
+        });
+        return Color(sum);
     }
 
     std::string bias() const override { return "it shows visibility, not light"; }
     bool needs_lamps() const override { return false; }
 
 private:
+    // Of the cosine-weighted hemisphere.
+    float open_part(Tracer& tracer, Sampler& sampler, const SurfacePoint& at) const
+    {
+        float sum = 0.f;
+        for (int i = 0; i < samples_; ++i) {
+            const Vec3f w = sample_hemisphere(warp_, sampler.next_2d());
+            const float pdf = hemisphere_pdf(warp_, w);
+            const Vec3f direction = at.shading.to_world(w);
+            const bool leaves = pdf > 0.f && dot(direction, at.geometric_normal) > 0.f;
+            if (leaves) sum += tracer.transmittance(at.spawn_ray(direction)) * (cos_theta(w) * inv_pi / pdf);
+        }
+        return sum / static_cast<float>(samples_);
+    }
+
     int samples_;
     HemisphereWarp warp_;
 };

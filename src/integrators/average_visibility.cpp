@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 
+#include "integrators/see_through.h"
 #include "model/plugin.h"
 #include "plumb/model/integrator.h"
 #include "plumb/model/sampler.h"
@@ -29,19 +30,26 @@ public:
 
     Color radiance(Tracer& tracer, Sampler& sampler, const Ray& ray) const override
     {
-        const auto hit = tracer.intersect(ray, RayKind::camera);
-        if (!hit) return Color(1.f);
-        const Vec3f direction = hit->shading.to_world(square_to_uniform_hemisphere(sampler.next_2d()));
-        if (dot(direction, hit->geometric_normal) <= 0.f) return Color(0.f);
-        Ray probe = hit->spawn_ray(direction);
-        probe.t_max = length_;
-        return Color(tracer.occluded(probe) ? 0.f : 1.f);
+        float sum = 0.f;
+        see_through(tracer, ray, [&](const SurfacePoint* at, float fraction, float opacity) {
+            if (opacity > 0.f) sum += fraction * opacity * (at ? visibility(tracer, sampler, *at) : 1.f);
+        });
+        return Color(sum);
     }
 
     std::string bias() const override { return "it shows visibility, not light"; }
     bool needs_lamps() const override { return false; }
 
 private:
+    float visibility(Tracer& tracer, Sampler& sampler, const SurfacePoint& at) const
+    {
+        const Vec3f direction = at.shading.to_world(square_to_uniform_hemisphere(sampler.next_2d()));
+        if (dot(direction, at.geometric_normal) <= 0.f) return 0.f;
+        Ray probe = at.spawn_ray(direction);
+        probe.t_max = length_;
+        return tracer.transmittance(probe);
+    }
+
     float length_;
 };
 

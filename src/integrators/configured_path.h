@@ -20,6 +20,7 @@ public:
 
     // The technique that path_loop.h asks for.
     int max_depth() const { return limits_.max_depth; }
+    bool counts_passes() const { return limits_.count_passes; }
     bool counts_emission(const PathState& path) const { return !explicit_ || path.delta; }
     float emission_weight(const PathState&, float) const { return 1.f; }
     Color direct(Tracer& tracer, Sampler& sampler, const Vertex& vertex) const;

@@ -8,6 +8,7 @@
 namespace plumb {
 
 struct DeltaChain {
+    bool counts_passes() const { return false; }
     bool counts_emission(const PathState& path) const { return path.delta; }
     float emission_weight(const PathState&, float) const { return 1.f; }
 

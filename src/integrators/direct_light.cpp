@@ -43,7 +43,8 @@ Color light_through(Tracer& tracer, const Vertex& vertex, const EmitterSample& l
 {
     const Color contribution = f_cos * light.radiance * (weight / light.pdf);
     if (contribution.is_black()) return contribution;
-    if (tracer.visible(vertex.at(), light)) return contribution;
+    const float visible = tracer.visible(vertex.at(), light);
+    if (visible > 0.f) return contribution * visible;
     if (tracer.logging())
         tracer.log(PathEvent::Kind::direct,
                    fmt::format("a light at distance {:.6g} is hidden", light.distance));
@@ -93,10 +94,10 @@ Color light_from_all_delta_emitters(Tracer& tracer, Sampler& sampler, const Vert
 Color light_along(Tracer& tracer, const Vertex& vertex, const std::optional<BsdfSample>& sampled)
 {
     if (!sampled || sampled->is_delta() || sampled->weight.is_black()) return Color(0.f);
-    const Vec3f direction = vertex.to_world(*sampled);
-    const auto hit = tracer.intersect(vertex.at().spawn_ray(direction), RayKind::bounce);
-    return sampled->weight *
-           tracer.scene().emission(vertex.receiver(), direction, hit ? &*hit : nullptr).radiance;
+    Color radiance(0.f);
+    look_along(tracer, vertex, vertex.to_world(*sampled),
+               [&](const SurfacePoint*, const Color& emission) { radiance += emission; });
+    return sampled->weight * radiance;
 }
 
 void require_solid_angle(const Scene& scene, const char* parameter)

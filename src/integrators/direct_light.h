@@ -30,6 +30,24 @@ Color light_from_all_delta_emitters(Tracer& tracer, Sampler& sampler, const Vert
 // What a ray into a sampled direction finds. Nothing for delta samples: the path itself follows those.
 Color light_along(Tracer& tracer, const Vertex& vertex, const std::optional<BsdfSample>& sampled);
 
+// Calls seen(hit, light) for each surface along a ray into a direction, and with null at the end of a ray that leaves the
+// scene: light is the emission that arrives from there. Ends where no light passes.
+template <class Seen>
+void look_along(Tracer& tracer, const Vertex& vertex, const Vec3f& direction, const Seen& seen)
+{
+    float fraction = 1.f;
+    Ray ray = vertex.at().spawn_ray(direction);
+    while (true) {
+        const auto hit = tracer.intersect(ray, RayKind::bounce);
+        const SurfacePoint* point = hit ? &*hit : nullptr;
+        seen(point, tracer.scene().emission(vertex.receiver(), direction, point).radiance * fraction);
+        if (!hit || !tracer.scene().has_null_surfaces()) return;
+        fraction *= 1.f - hit->bsdf->opacity(*hit);
+        if (!(fraction > 0.f) || (hit->emitter && tracer.scene().emitters_absorb())) return;
+        ray = hit->spawn_ray(direction);
+    }
+}
+
 // What an emitter's chosen point adds, if it is visible. f_cos: the BSDF's value towards it.
 Color light_through(Tracer& tracer, const Vertex& vertex, const EmitterSample& light, Color f_cos,
                     float weight = 1.f);

@@ -69,11 +69,11 @@ private:
         Color sum(0.f);
         const auto samples = static_cast<float>(mine.samples());
         for (int i = 0; i < mine.samples(); ++i) {
-            const auto found = mine.find(tracer, sampler, vertex, other);
-            if (!found) continue;
-            const float share = mis_weight(heuristic_, samples * found->pdf,
-                                           static_cast<float>(other.samples()) * found->other_pdf);
-            sum += found->light * (share / (samples * found->pdf));
+            mine.find(tracer, sampler, vertex, other, [&](const DirectTechnique::Found& found) {
+                const float share = mis_weight(heuristic_, samples * found.pdf,
+                                               static_cast<float>(other.samples()) * found.other_pdf);
+                sum += found.light * (share / (samples * found.pdf));
+            });
         }
         return sum;
     }

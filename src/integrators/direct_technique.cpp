@@ -78,39 +78,38 @@ float DirectTechnique::density(const Scene& scene, const Vertex& vertex, const V
     return hemisphere_pdf(warp_, vertex.on_seen_side(vertex.at().shading.to_local(wo_world)));
 }
 
-std::optional<DirectTechnique::Found> DirectTechnique::find(Tracer& tracer, Sampler& sampler,
-                                                            const Vertex& vertex,
-                                                            const DirectTechnique& other) const
+void DirectTechnique::find(Tracer& tracer, Sampler& sampler, const Vertex& vertex,
+                           const DirectTechnique& other, const Take& take) const
 {
-    if (samples_emitters()) return find_by_emitter(tracer, sampler, vertex, other);
+    if (samples_emitters()) return find_by_emitter(tracer, sampler, vertex, other, take);
     const auto sampled = direction(sampler, vertex);
-    if (!sampled || sampled->is_delta()) return std::nullopt;
+    if (!sampled || sampled->is_delta()) return;
     const Vec3f wo_world = vertex.to_world(*sampled);
     const BsdfValue value = vertex.evaluate_local(sampled->wo);
-    if (value.f_cos.is_black()) return std::nullopt;
-    const auto hit = tracer.intersect(vertex.at().spawn_ray(wo_world), RayKind::bounce);
-    const SurfacePoint* point = hit ? &*hit : nullptr;
-    const Color radiance = tracer.scene().emission(vertex.receiver(), wo_world, point).radiance;
-    if (radiance.is_black()) return std::nullopt;
-    return Found{value.f_cos * radiance, sampled->pdf,
-                 other.density(tracer.scene(), vertex, wo_world, value, point)};
+    if (value.f_cos.is_black()) return;
+    look_along(tracer, vertex, wo_world, [&](const SurfacePoint* hit, const Color& radiance) {
+        if (radiance.is_black()) return;
+        take({value.f_cos * radiance, sampled->pdf,
+              other.density(tracer.scene(), vertex, wo_world, value, hit)});
+    });
 }
 
-std::optional<DirectTechnique::Found> DirectTechnique::find_by_emitter(Tracer& tracer, Sampler& sampler,
-                                                                       const Vertex& vertex,
-                                                                       const DirectTechnique& other) const
+void DirectTechnique::find_by_emitter(Tracer& tracer, Sampler& sampler, const Vertex& vertex,
+                                      const DirectTechnique& other, const Take& take) const
 {
     const double u_choice = sampler.next_choice();
     const Vec2f u = sampler.next_2d();
     const auto light = tracer.scene().sample_emitter(vertex.receiver(), u_choice, u, measure());
-    if (!light || light->is_delta) return std::nullopt;
+    if (!light || light->is_delta) return;
     const BsdfValue value = vertex.evaluate(light->wi);
     const Color contribution = value.f_cos * light->radiance;
-    if (contribution.is_black() || !tracer.visible(vertex.at(), *light)) return std::nullopt;
+    if (contribution.is_black()) return;
+    const float visible = tracer.visible(vertex.at(), *light);
+    if (!(visible > 0.f)) return;
     const SurfacePoint point = surface_of(*light);
     const bool is_surface = light->distance != infinity;
-    return Found{contribution, light->pdf,
-                 other.density(tracer.scene(), vertex, light->wi, value, is_surface ? &point : nullptr)};
+    take({contribution * visible, light->pdf,
+          other.density(tracer.scene(), vertex, light->wi, value, is_surface ? &point : nullptr)});
 }
 
 } // namespace plumb

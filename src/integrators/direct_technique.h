@@ -6,6 +6,8 @@
 #include "integrators/direct_light.h"
 #include "integrators/hemisphere_warp.h"
 
+#include <functional>
+
 namespace plumb {
 
 class DirectTechnique {
@@ -23,15 +25,17 @@ public:
     // All direct light, estimated by one sample: every emitter's, or one direction's.
     Color estimate(Tracer& tracer, Sampler& sampler, const Vertex& vertex) const;
 
-    // Light that one sample found, for weighting by hand: f_cos times radiance, with the densities per unit solid
+    // What light one sample found, for weighting by hand: f_cos times radiance, with the densities per unit solid
     // angle of this technique and of another. Lights that only emitter sampling can find are left out.
     struct Found {
         Color light;
         float pdf = 0.f;
         float other_pdf = 0.f;
     };
-    std::optional<Found> find(Tracer& tracer, Sampler& sampler, const Vertex& vertex,
-                              const DirectTechnique& other) const;
+    // Several only where light passes straight through an emitter.
+    using Take = std::function<void(const Found&)>;
+    void find(Tracer& tracer, Sampler& sampler, const Vertex& vertex, const DirectTechnique& other,
+              const Take& take) const;
 
 private:
     bool samples_emitters() const { return kind_ != Kind::hemisphere && kind_ != Kind::bsdf; }
@@ -40,8 +44,8 @@ private:
     // The density with which this technique would have found the point (null: the environment) along wo.
     float density(const Scene& scene, const Vertex& vertex, const Vec3f& wo_world, const BsdfValue& value,
                   const SurfacePoint* hit) const;
-    std::optional<Found> find_by_emitter(Tracer& tracer, Sampler& sampler, const Vertex& vertex,
-                                         const DirectTechnique& other) const;
+    void find_by_emitter(Tracer& tracer, Sampler& sampler, const Vertex& vertex, const DirectTechnique& other,
+                         const Take& take) const;
 
     const char* parameter_;
     Kind kind_;

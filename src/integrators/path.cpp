@@ -28,6 +28,7 @@ namespace plumb {
 ///
 ///     maxDepth            integer   surface bounces: 0 shows emitters only, 1 direct light, -1 everything   (default -1)
 ///     rrDepth             integer   bounces before roulette starts   (default 3; with termination-param 0)
+///     countPasses   boolean   whether passing straight through a mask costs a bounce, of shadow rays as well   (default false)
 ///
 /// A path of throughput t (undone what refraction does to radiance) survives roulette with probability
 /// min(max(t), 0.95).

@@ -17,6 +17,7 @@ PathLimits::PathLimits(const Params& params)
     max_depth = static_cast<int>(params.integer("maxDepth", max_depth, Range::closed(-1, largest_depth)));
     roulette_depth =
         static_cast<int>(params.integer("rrDepth", roulette_depth, Range::closed(0, largest_depth)));
+    count_passes = params.boolean("countPasses", count_passes);
 }
 
 PathEstimator PathEstimator::direct_light(LightStrategy finder)

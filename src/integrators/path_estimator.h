@@ -11,11 +11,12 @@ namespace plumb {
 
 // How long paths get.
 struct PathLimits {
-    int max_depth = -1;     // surface bounces; -1: any number
-    int roulette_depth = 3; // bounces before roulette starts
+    int max_depth = -1;        // surface bounces; -1: any number
+    int roulette_depth = 3;    // bounces before roulette starts
+    bool count_passes = false; // through null lobes, as bounces
 
     PathLimits() = default;
-    explicit PathLimits(const Params& params); // the parameters maxDepth and rrDepth
+    explicit PathLimits(const Params& params); // the parameters maxDepth, rrDepth and countPasses
 };
 
 class PathEstimator {
@@ -35,6 +36,7 @@ public:
 
     // The technique that path_loop.h asks for.
     int max_depth() const { return limits_.max_depth; }
+    bool counts_passes() const { return limits_.count_passes; }
     bool counts_emission(const PathState& path) const
     {
         return strategy_ != LightStrategy::emitter_samples || path.delta;

@@ -15,6 +15,7 @@ const char* name_of(Lobe lobe)
     case Lobe::glossy_transmission: return "glossy transmission";
     case Lobe::delta_reflection: return "delta reflection";
     case Lobe::delta_transmission: return "delta transmission";
+    case Lobe::null: return "pass";
     }
     return "";
 }

@@ -4,6 +4,7 @@
 // The loop of every integrator that follows a path from the camera. What distinguishes them is a technique:
 //
 //     int max_depth() const                                     surface bounces; negative: any number
+//     bool counts_passes() const                                is a pass through a null lobe a bounce?
 //     bool counts_emission(const PathState&) const              does the path's last direction count what it meets?
 //     float emission_weight(const PathState&, float light_pdf) const     and with which weight?
 //     Color direct(Tracer&, Sampler&, const Vertex&) const      light that reaches the vertex by other means
@@ -32,6 +33,7 @@ struct PathState {
     void extend(const Vertex& vertex, const BsdfSample& next)
     {
         throughput *= next.weight;
+        if (next.is_pass()) return; // light that lies on is still looked for from the last vertex
         eta_scale *= sqr(next.eta);
         receiver = vertex.receiver();
         pdf = next.pdf;
@@ -41,6 +43,12 @@ struct PathState {
 
 // Integrator::bias() of a loop that ends paths at max_depth; negative: none.
 std::string bias_of_depth(int max_depth);
+
+// Surfaces that light may pass on its way to a vertex, where they count as bounces.
+inline int passes_left(int max_depth, int bounces)
+{
+    return max_depth < 0 ? std::numeric_limits<int>::max() : max_depth - bounces - 1;
+}
 
 // For the first surfaces, and for `renderer replay`.
 void note_scatter(Tracer& tracer, const PathState& path, const BsdfSample& next);
@@ -91,27 +99,40 @@ Color trace_path(const Technique& technique, Tracer& tracer, Sampler& sampler, R
     };
     Color result(0.f);
     PathState path(ray.origin);
-    for (int bounces = 0;; ++bounces) {
-        const auto hit = tracer.intersect(ray, bounces == 0 ? RayKind::camera : RayKind::bounce);
+    int bounces = 0;
+    for (int surfaces = 0;; ++surfaces) {
+        const auto hit = tracer.intersect(ray, surfaces == 0 ? RayKind::camera : RayKind::bounce);
         result += emitted(technique, tracer, path, ray, hit);
         if (!hit) return end("the path has left the scene"), result;
         if (hit->emitter && tracer.scene().emitters_absorb())
             return end("an emitter absorbs the path"), result;
-        if (bounces == technique.max_depth()) return end("the path has its largest depth"), result;
+        const bool passes_only = bounces == technique.max_depth();
+        if (passes_only && (technique.counts_passes() || !hit->bsdf->lobes().has_any(Lobe::null)))
+            return end("the path has its largest depth"), result;
 
-        sampler.start_vertex(bounces);
+        sampler.start_vertex(surfaces);
         const Vertex vertex(*hit, ray.direction);
         // The next direction before the shadow ray: the processor works on both at once.
         const std::optional<BsdfSample> next = technique.scatter(sampler, vertex);
-        result += scattered(technique, tracer, sampler, path, vertex);
+        if (!passes_only) {
+            if (technique.counts_passes()) tracer.limit_passes(passes_left(technique.max_depth(), bounces));
+            result += scattered(technique, tracer, sampler, path, vertex);
+        }
         if (!next) return end("the surface absorbs the path"), result;
+        if (passes_only && !next->is_pass()) return end("the path has its largest depth"), result;
         path.extend(vertex, *next);
         if (tracer.watched()) note_scatter(tracer, path, *next);
         if (path.throughput.is_black()) return end("the throughput of the path is zero"), result;
 
-        const bool last = bounces + 1 == technique.max_depth();
+        if (next->is_pass()) {
+            bounces += technique.counts_passes() ? 1 : 0;
+            ray = hit->spawn_ray(ray.direction); // of which rounding must not make another
+            continue;
+        }
+        ++bounces;
+        const bool last = bounces == technique.max_depth();
         if (last && !technique.counts_emission(path)) return end("nothing else can contribute"), result;
-        if (!survives(technique, tracer, sampler, path, bounces + 1)) return end("roulette"), result;
+        if (!survives(technique, tracer, sampler, path, bounces)) return end("roulette"), result;
         ray = hit->spawn_ray(vertex.to_world(*next));
     }
 }

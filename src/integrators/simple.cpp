@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "integrators/direct_light.h"
+#include "integrators/see_through.h"
 #include "model/plugin.h"
 #include "plumb/model/integrator.h"
 
@@ -31,10 +32,15 @@ public:
 
     Color radiance(Tracer& tracer, Sampler& sampler, const Ray& ray) const override
     {
-        const auto hit = tracer.intersect(ray, RayKind::camera);
-        if (!hit) return Color(0.f);
-        if (own_light_) return from_own_light(tracer, *hit);
-        return light_from_all_delta_emitters(tracer, sampler, Vertex(*hit, ray.direction));
+        Color sum(0.f);
+        see_through(tracer, ray, [&](const SurfacePoint* at, float fraction, float opacity) {
+            if (!at) return;
+            if (own_light_)
+                sum += from_own_light(tracer, *at) * (fraction * opacity);
+            else
+                sum += light_from_all_delta_emitters(tracer, sampler, Vertex(*at, ray.direction)) * fraction;
+        });
+        return sum;
     }
 
     std::string bias() const override
@@ -53,8 +59,10 @@ private:
         light.distance = distance;
         light.position = position_;
         const float cosine = std::max(0.f, dot(light.wi, at.shading.n));
-        if (cosine == 0.f || !tracer.visible(at, light)) return Color(0.f);
-        return energy_ * (cosine / (4.f * sqr(pi) * sqr(distance)));
+        if (cosine == 0.f) return Color(0.f);
+        const float visible = tracer.visible(at, light);
+        if (!(visible > 0.f)) return Color(0.f);
+        return energy_ * (cosine / (4.f * sqr(pi) * sqr(distance))) * visible;
     }
 
     bool own_light_;

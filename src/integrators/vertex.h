@@ -36,10 +36,10 @@ public:
     // A direction above the surface, on the side that is seen.
     Vec3f on_seen_side(const Vec3f& up) const { return {up.x, up.y, wi_.z < 0.f ? -up.z : up.z}; }
 
-    // A surface that does not transmit is black, from where it is seen, for light from behind its shading normal.
+    // A surface without smooth transmission is black, from where it is seen, for light samples from behind its shading normal.
     LightReceiver receiver() const
     {
-        if (has_transmission()) return {at_.position};
+        if (lobes_.has_any(Lobe::glossy_transmission)) return {at_.position};
         return {at_.position, wi_.z < 0.f ? -at_.shading.n : at_.shading.n};
     }
 

@@ -49,7 +49,8 @@ std::optional<InstanceMap> InstanceMap::from(const Transform& to_world)
             map.forward_[i][j] = static_cast<float>(rows[i][j]);
             map.inverse_[i][j] = inverse.rows()[i][j];
         }
-    if (!(largest_row_sum(map.forward_) <= largest_scale) || !(largest_row_sum(map.inverse_) <= largest_scale))
+    if (!(largest_row_sum(map.forward_) <= largest_scale) ||
+        !(largest_row_sum(map.inverse_) <= largest_scale))
         return {};
     return map;
 }
@@ -75,8 +76,7 @@ SurfacePoint InstanceMap::to_object(const SurfacePoint& at) const
         moved.position[i] = static_cast<float>(linear(inverse_[row], position) + inverse_[row][3]);
         // The inverse transpose of the inverse is the transpose.
         for (int j = 0; j < 3; ++j)
-            object_normal[j] +=
-                static_cast<double>(forward_[row][static_cast<std::size_t>(j)]) * normal[i];
+            object_normal[j] += static_cast<double>(forward_[row][static_cast<std::size_t>(j)]) * normal[i];
     }
     moved.geometric_normal = Vec3f(normalize(object_normal));
     moved.shading = Frame(moved.geometric_normal);
@@ -119,7 +119,8 @@ Box3f InstanceMap::to_world(const Box3f& box) const
         double least = row[3], most = row[3];
         for (int j = 0; j < 3; ++j) {
             const double factor = row[static_cast<std::size_t>(j)];
-            const double a = factor * static_cast<double>(box.min[j]), b = factor * static_cast<double>(box.max[j]);
+            const double a = factor * static_cast<double>(box.min[j]),
+                         b = factor * static_cast<double>(box.max[j]);
             least += std::min(a, b);
             most += std::max(a, b);
         }

@@ -1,31 +1,20 @@
 // SPDX-License-Identifier: MIT
 
-// The only user of Embree: version 3.13 or 4.
+// Embree, version 3.13 or 4: the device, the scenes, and how rays get there. Instances: accel_instances.cpp.
 
 #include "scene/accel.h"
 
 #include "base/emplace_with.h"
 #include "plumb/base/error.h"
 #include "plumb/scene/instruction_set.h"
-#include "shapes/intersection.h"
+#include "scene/accel_rays.h"
 
-#include <cstring>
 #include <mutex>
-#include <unordered_map>
 
 #include <fmt/format.h>
 
-#if PLUMB_EMBREE_MAJOR >= 4
-#include <embree4/rtcore.h>
-#else
-#include <embree3/rtcore.h>
-#endif
-
 namespace plumb {
 namespace {
-
-// Embree accepts hits at exactly t_min; ours is an open interval, and a ray that starts in a plane must not meet it.
-constexpr float smallest_t = std::numeric_limits<float>::min();
 
 const InstructionSet& find_instruction_set(const std::string& name)
 {
@@ -53,81 +42,6 @@ void on_device_error(void*, RTCError code, const char* message)
     const std::lock_guard lock(errors.mutex);
     errors.code = code;
     errors.message = message ? message : "";
-}
-
-void throw_device_error(const char* doing)
-{
-    DeviceErrors& errors = device_errors();
-    const std::lock_guard lock(errors.mutex);
-    if (errors.code == RTC_ERROR_NONE) return;
-    const bool memory = errors.code == RTC_ERROR_OUT_OF_MEMORY;
-    const std::string message = errors.message;
-    errors.code = RTC_ERROR_NONE;
-    if (memory) throw Error(fmt::format("out of memory while {}", doing));
-    throw Error(fmt::format("Embree failed while {}: {}", doing, message));
-}
-
-// Four floats that are stored as one: Embree loads them so, and after single stores it would have to wait.
-void store(float* to, float x, float y, float z, float w)
-{
-    using Lanes [[gnu::vector_size(16)]] = float;
-    const Lanes lanes{x, y, z, w};
-    std::memcpy(to, &lanes, sizeof(lanes));
-}
-
-RTCRay embree_ray(const Ray& ray)
-{
-    RTCRay r;
-    store(&r.org_x, ray.origin.x, ray.origin.y, ray.origin.z, std::max(ray.t_min, smallest_t));
-    store(&r.dir_x, ray.direction.x, ray.direction.y, ray.direction.z, 0.f); // and the time
-    r.tfar = ray.t_max;
-    r.mask = ~0u;
-    r.id = 0;
-    r.flags = 0;
-    return r;
-}
-
-Ray our_ray(const RTCRay& r)
-{
-    return {{r.org_x, r.org_y, r.org_z}, {r.dir_x, r.dir_y, r.dir_z}, r.tnear, r.tfar};
-}
-
-inline RTCRayHit intersect_scene(RTCScene scene, const RTCRay& ray)
-{
-    RTCRayHit ray_hit;
-    ray_hit.ray = ray;
-    ray_hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    ray_hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-#if PLUMB_EMBREE_MAJOR >= 4
-    rtcIntersect1(scene, &ray_hit);
-#else
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcIntersect1(scene, &context, &ray_hit);
-#endif
-    return ray_hit;
-}
-
-inline bool is_occluded(RTCScene scene, RTCRay ray)
-{
-#if PLUMB_EMBREE_MAJOR >= 4
-    rtcOccluded1(scene, &ray);
-#else
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcOccluded1(scene, &context, &ray);
-#endif
-    return ray.tfar < 0.f;
-}
-
-void store_bounds(RTCBounds& to, const Box3f& box)
-{
-    to.lower_x = next_float(box.min.x, false);
-    to.lower_y = next_float(box.min.y, false);
-    to.lower_z = next_float(box.min.z, false);
-    to.upper_x = next_float(box.max.x, true);
-    to.upper_y = next_float(box.max.y, true);
-    to.upper_z = next_float(box.max.z, true);
 }
 
 // Primitives as Embree's user geometry: tested in our own arithmetic, one ray at a time.
@@ -162,6 +76,18 @@ void user_occluded(const RTCOccludedFunctionNArguments* args)
 }
 
 } // namespace
+
+void throw_device_error(const char* doing)
+{
+    DeviceErrors& errors = device_errors();
+    const std::lock_guard lock(errors.mutex);
+    if (errors.code == RTC_ERROR_NONE) return;
+    const bool memory = errors.code == RTC_ERROR_OUT_OF_MEMORY;
+    const std::string message = errors.message;
+    errors.code = RTC_ERROR_NONE;
+    if (memory) throw Error(fmt::format("out of memory while {}", doing));
+    throw Error(fmt::format("Embree failed while {}: {}", doing, message));
+}
 
 class Scene::Accel::Builder final : public AccelBuilder {
 public:
@@ -208,58 +134,6 @@ private:
     std::uint32_t object_ = 0;
 };
 
-// An instance sends the ray through its map and on to the group's own scene. Embree asserts that rays are in its range, and
-// Debian's aborts where one is not: those meet nothing.
-struct Scene::Accel::InstanceCallbacks {
-    static const Part& part_of(const Instances& all, unsigned instance)
-    {
-        return (*all.parts)[all.part[instance]];
-    }
-
-    static std::optional<RTCRay> in_group(const Instances& all, unsigned instance, const RTCRay& ray)
-    {
-        const RayD moved = all.instances[instance].to_object(RayD(our_ray(ray)));
-        const Ray rounded(Vec3f(moved.origin), Vec3f(moved.direction), ray.tnear, ray.tfar);
-        if (!is_traceable(rounded)) return std::nullopt;
-        return embree_ray(rounded);
-    }
-
-    static void bounds(const RTCBoundsFunctionArguments* args)
-    {
-        const auto& all = *static_cast<const Instances*>(args->geometryUserPtr);
-        RTCBounds of_group;
-        rtcGetSceneBounds(part_of(all, args->primID).scene, &of_group);
-        const Box3f box = all.instances[args->primID].to_world(
-            Box3f({of_group.lower_x, of_group.lower_y, of_group.lower_z},
-                  {of_group.upper_x, of_group.upper_y, of_group.upper_z}));
-        store_bounds(*args->bounds_o, box);
-    }
-
-    static void intersect(const RTCIntersectFunctionNArguments* args)
-    {
-        if (args->valid[0] == 0) return;
-        const auto& all = *static_cast<const Instances*>(args->geometryUserPtr);
-        auto& ray_hit = *reinterpret_cast<RTCRayHit*>(args->rayhit);
-        const std::optional<RTCRay> ray = in_group(all, args->primID, ray_hit.ray);
-        if (!ray) return;
-        const RTCRayHit found = intersect_scene(part_of(all, args->primID).scene, *ray);
-        if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID) return;
-        ray_hit.ray.tfar = found.ray.tfar;
-        ray_hit.hit.geomID = found.hit.geomID;
-        ray_hit.hit.primID = found.hit.primID;
-        ray_hit.hit.instID[0] = args->primID;
-    }
-
-    static void occluded(const RTCOccludedFunctionNArguments* args)
-    {
-        if (args->valid[0] == 0) return;
-        const auto& all = *static_cast<const Instances*>(args->geometryUserPtr);
-        auto& ray = *reinterpret_cast<RTCRay*>(args->ray);
-        const std::optional<RTCRay> moved = in_group(all, args->primID, ray);
-        if (moved && is_occluded(part_of(all, args->primID).scene, *moved)) ray.tfar = -infinity;
-    }
-};
-
 Scene::Accel::Accel(const std::vector<SceneObject>& objects, const std::vector<Instance>& instances,
                     const std::string& instruction_set)
 {
@@ -300,34 +174,6 @@ void Scene::Accel::fill(Part& part, const std::vector<SceneObject>& objects)
     }
 }
 
-// Groups first: the instances' bounds are theirs.
-void Scene::Accel::add_instances(const std::vector<Instance>& instances)
-{
-    std::unordered_map<const Group*, std::uint32_t> part_of;
-    instances_.instances = instances.data();
-    instances_.part.reserve(instances.size());
-    for (const Instance& instance : instances) {
-        const auto [known, is_new] =
-            part_of.emplace(instance.group.get(), static_cast<std::uint32_t>(parts_.size()));
-        if (is_new) {
-            parts_.emplace_back();
-            fill(parts_.back(), instance.group->objects());
-            rtcCommitScene(parts_.back().scene);
-            throw_device_error("building a group");
-        }
-        instances_.part.push_back(known->second);
-    }
-    instances_.parts = &parts_;
-
-    RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_USER);
-    rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(instances.size()));
-    rtcSetGeometryUserData(geometry, &instances_);
-    rtcSetGeometryBoundsFunction(geometry, InstanceCallbacks::bounds, nullptr);
-    rtcSetGeometryIntersectFunction(geometry, InstanceCallbacks::intersect);
-    rtcSetGeometryOccludedFunction(geometry, InstanceCallbacks::occluded);
-    Builder(*this, parts_[0]).attach(geometry);
-}
-
 void Scene::Accel::release()
 {
     for (const Part& part : parts_)
@@ -361,9 +207,9 @@ std::optional<SurfacePoint> Scene::intersect(const Ray& ray) const
 {
     const Accel::Hit hit = accel_->intersect(ray);
     if (!hit) return std::nullopt;
+    if (hit.instance != Accel::Hit::nothing) [[unlikely]]
+        return emplace_with([&] { return point_in_instance(ray, hit.instance, hit.object, hit.primitive); });
     const auto surface_point = [&] {
-        if (hit.instance != Accel::Hit::nothing) [[unlikely]]
-            return point_in_instance(ray, hit.instance, hit.object, hit.primitive);
         const SceneObject& object = objects_[hit.object];
         SurfacePoint point = object.shape->surface_at(ray, hit.primitive);
         point.primitive = hit.primitive;

@@ -19,8 +19,8 @@ public:
     // Not in an optional: its flag, a byte that is read back as a word, would make the processor wait.
     struct Hit {
         static constexpr std::uint32_t nothing = ~0u;
-        std::uint32_t object = nothing;   // index into the objects given, or into those of the instance's group
-        std::uint32_t primitive = 0;      // within that object
+        std::uint32_t object = nothing; // index into the objects given, or into those of the instance's group
+        std::uint32_t primitive = 0;    // within that object
         std::uint32_t instance = nothing; // index into the instances given
         explicit operator bool() const { return object != nothing; }
     };

@@ -4,6 +4,7 @@
 
 #include "scene/accel.h"
 
+#include <algorithm>
 #include <unordered_set>
 
 #include <fmt/format.h>
@@ -46,6 +47,11 @@ Scene::Scene(std::vector<SceneObject> objects, std::vector<std::unique_ptr<Emitt
             {object.emitter ? add_emitter(*object.emitter) : 0, object.bsdf && object.bsdf->is_oriented()});
     }
     for (const auto& light : lights_) add_emitter(*light);
+    const auto is_null = [](const SceneObject& object) { return object.bsdf->lobes().has_any(Lobe::null); };
+    has_null_surfaces_ = std::any_of(objects_.begin(), objects_.end(), is_null);
+    for (const Group* group : groups())
+        has_null_surfaces_ =
+            has_null_surfaces_ || std::any_of(group->objects().begin(), group->objects().end(), is_null);
 
     choice_ = LightTree(emitters_, LightTree::Among::all, sphere);
     delta_choice_ = LightTree(emitters_, LightTree::Among::delta, sphere);

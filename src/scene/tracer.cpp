@@ -63,13 +63,59 @@ std::optional<SurfacePoint> Tracer::intersect_watched(const Ray& ray, RayKind ki
             log(PathEvent::Kind::hit,
                 fmt::format("meets {} (primitive {}) at {}, distance {:.6g}, normal {}, shading normal {}, "
                             "uv ({:.6g} {:.6g})",
-                            scene_.name_of(*hit), hit->primitive, text(hit->position), length(hit->position - ray.origin),
-                            text(hit->geometric_normal), text(hit->shading.n), hit->uv.x, hit->uv.y));
+                            scene_.name_of(*hit), hit->primitive, text(hit->position),
+                            length(hit->position - ray.origin), text(hit->geometric_normal),
+                            text(hit->shading.n), hit->uv.x, hit->uv.y));
         } else {
             log(PathEvent::Kind::escape, "leaves the scene");
         }
     }
     return hit;
+}
+
+// rest: the ray that goes on from a surface.
+template <class Rest>
+float Tracer::transmittance(Ray ray, const Rest& rest)
+{
+    float fraction = 1.f;
+    ++counts_.shadow;
+    for (int passes = 0;; ++passes) {
+        if (!is_traceable(ray)) {
+            failed_ = true;
+            return 0.f;
+        }
+        const std::optional<SurfacePoint> hit = scene_.intersect(ray);
+        if (!hit) return fraction;
+        // Where paths end, no light passes.
+        if (passes >= most_passes_ || (hit->emitter && scene_.emitters_absorb())) return 0.f;
+        fraction *= 1.f - hit->bsdf->opacity(*hit);
+        if (!(fraction > 0.f)) return 0.f;
+        const Ray next = rest(*hit, ray);
+        if (!(next.t_max > 0.f)) return fraction;
+        ray = next;
+    }
+}
+
+float Tracer::transmittance_to_end(const Ray& ray)
+{
+    const Vec3d end = Vec3d(ray.origin) + Vec3d(ray.direction);
+    return transmittance(ray, [&](const SurfacePoint& at, const Ray& last) {
+        const Vec3f origin = offset_origin(at.position, at.clearance, at.geometric_normal, last.direction);
+        const Vec3f direction(end - Vec3d(origin));
+        // The offset may lead past an end that lies next to the surface.
+        return Ray(origin, direction, 0.f, dot(direction, last.direction) > 0.f ? last.t_max : 0.f);
+    });
+}
+
+float Tracer::transmittance(const Ray& ray)
+{
+    if (!scene_.has_null_surfaces()) return occluded(ray) ? 0.f : 1.f;
+    return transmittance(ray, [](const SurfacePoint& at, const Ray& last) {
+        Ray next = at.spawn_ray(last.direction);
+        const Vec3d way = Vec3d(next.origin) - Vec3d(last.origin), direction(last.direction);
+        next.t_max = last.t_max - static_cast<float>(dot(way, direction) / dot(direction, direction));
+        return next;
+    });
 }
 
 void Tracer::log(PathEvent::Kind kind, std::string text)

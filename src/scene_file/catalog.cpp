@@ -43,6 +43,9 @@ constexpr Entry<Bsdf> bsdfs[] = {
     {"phong", build<class Phong>, "Phong"},
     {"normalmap", build<class NormalMap>, "NormalMap"},
     {"twosided", build<class TwoSided>, "TwoSided"},
+    {"mask", build<class Mask>, "Mask"},
+    {"null", build<class NullBsdf>, "NullBsdf"},
+    {"blend", build<class Blend>, "Blend"},
 };
 
 constexpr Entry<Texture> textures[] = {

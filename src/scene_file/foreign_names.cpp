@@ -121,10 +121,8 @@ constexpr ForeignName names[] = {
     {"bsdf", "blinn", "", "use 'phong'"},
     {"bsdf", "blinn_phong", "", "use 'phong'"},
     {"bsdf", "oren_nayar", "", "use 'diffuse'"},
-    {"bsdf", "null", "", "leave the surface out"},
-    {"bsdf", "mask", "", "leave the transparent parts out of the mesh"},
-    {"bsdf", "blend", "", "use one of its BSDFs"},
-    {"bsdf", "mix", "", "use one of its BSDFs"},
+    {"bsdf", "blendbsdf", "blend", ""},
+    {"bsdf", "mix", "blend", ""},
     {"bsdf", "bumpmap", "", no_relief},
 
     {"shape", "plane", "", "use 'rectangle', or an 'obj' mesh"},

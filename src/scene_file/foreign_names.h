@@ -19,7 +19,7 @@ struct ForeignName {
 
 std::span<const ForeignName> foreign_names();
 
-// "integrator 'mipath' is 'path_mis' here", "bsdf 'null' is not supported; leave the surface out"; nothing for other
+// "integrator 'mipath' is 'path_mis' here", "bsdf 'coating' is not supported; use 'roughsubstrate'"; nothing for other
 // names.
 std::optional<std::string> foreign_type(std::string_view kind, std::string_view name);
 // "<rgb> is <color> here", "<medium> is not supported; Plumb renders surfaces in a vacuum only".

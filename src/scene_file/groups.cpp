@@ -42,12 +42,13 @@ void reject_surface_parts(const Element& composite, std::string_view noun, Diagn
 {
     for (const std::string_view tag : {"bsdf", "ref"})
         if (const Element* bsdf = noun == "a group" || tag == "bsdf" ? child_of(composite, tag) : nullptr)
-            diagnostics.error(bsdf->place(),
-                              fmt::format("{} has no BSDF of its own; give one to each shape in the group", noun));
+            diagnostics.error(
+                bsdf->place(),
+                fmt::format("{} has no BSDF of its own; give one to each shape in the group", noun));
     if (const Element* emitter = child_of(composite, "emitter"))
-        diagnostics.error(emitter->place(),
-                          fmt::format("{} cannot emit light; put a shape with this emitter directly into <scene>",
-                                      noun));
+        diagnostics.error(
+            emitter->place(),
+            fmt::format("{} cannot emit light; put a shape with this emitter directly into <scene>", noun));
 }
 
 // The surfaces of a group. What cannot be one is reported.
@@ -57,9 +58,10 @@ std::vector<const Element*> members_of(const Element& group, Diagnostics& diagno
     for (const Element& child : group.children) {
         if (kind_of(child) != "shape") continue;
         if (Groups::takes(child))
-            diagnostics.error(child.place(),
-                              fmt::format("a group cannot contain {}; put the shapes themselves into it",
-                                          child.value("type") == group_type ? "another group" : "an instance"));
+            diagnostics.error(
+                child.place(),
+                fmt::format("a group cannot contain {}; put the shapes themselves into it",
+                            child.value("type") == group_type ? "another group" : "an instance"));
         else
             members.push_back(&child);
         if (const Element* emitter = child_of(child, "emitter"))
@@ -107,8 +109,9 @@ void Groups::build_groups(LoadContext& context)
         reject_surface_parts(*element, "a group", context.diagnostics);
         const std::string id = element->value("id");
         if (id.empty())
-            context.diagnostics.error(element->place(), "a group needs an id, for the <ref> of an instance to "
-                                                        "name: <shape type=\"group\" id=\"...\">");
+            context.diagnostics.error(element->place(),
+                                      "a group needs an id, for the <ref> of an instance to "
+                                      "name: <shape type=\"group\" id=\"...\">");
         Diagnostics of_group;
         const std::vector<const Element*> members = members_of(*element, of_group);
         std::vector<SceneObject> objects;
@@ -119,8 +122,8 @@ void Groups::build_groups(LoadContext& context)
         const auto [known, is_new] = by_id_.try_emplace(id, Known{element, nullptr});
         if (!is_new) {
             const SourceLocation first = known->second.element->place(), second = id_place(*element);
-            context.diagnostics.error(second, fmt::format("the id '{}' is given twice; first given at {} {}", id,
-                                                          first.file == second.file ? "line" : first.file,
+            context.diagnostics.error(second, fmt::format("the id '{}' is given twice; first given at {} {}",
+                                                          id, first.file == second.file ? "line" : first.file,
                                                           first.line));
         } else if (!context.diagnostics.has_errors()) {
             known->second.group = std::make_shared<const Group>(
@@ -148,9 +151,8 @@ std::optional<Instance> Groups::instance(const Element& element, LoadContext& co
                         fmt::format("instance of '{}' ({})", ref->value("id"), place_text(element))};
     if (!map)
         context.diagnostics.error(element.place(),
-                                  fmt::format("toWorld, rounded to 32-bit floats, is singular or scales by more "
-                                              "than {0:g} or less than 1/{0:g}; scale the group's shapes",
-                                              InstanceMap::largest_scale));
+                                  "toWorld, rounded to 32-bit floats, is singular, or it scales by a factor "
+                                  "that is not in [1e-9, 1e9]; scale the shapes of the group instead");
     else if (known->group)
         context.diagnostics.error(element.place(),
                                   "toWorld moves the group farther than a 32-bit float can represent");

@@ -95,9 +95,11 @@ Count leave_triangles(int maps, int rays, std::uint64_t seed)
                            random.between(-offset, offset));
         const Vec3d a = Vec3d(random.direction()) * size;
         const Vec3d b = normalize(cross(a, Vec3d(random.direction()))) * (size * thin);
-        const Transform map = random_map(random, m % 2 == 0 ? 2.5 : 1.0, size * std::pow(10.0, random.between(-1, 3)));
+        const Transform map =
+            random_map(random, m % 2 == 0 ? 2.5 : 1.0, size * std::pow(10.0, random.between(-1, 3)));
         std::string text;
-        for (const Vec3d& p : {corner, corner + a, corner + b}) text += fmt::format("v {} {} {}\n", float(p.x), float(p.y), float(p.z));
+        for (const Vec3d& p : {corner, corner + a, corner + b})
+            text += fmt::format("v {} {} {}\n", float(p.x), float(p.y), float(p.z));
         std::unique_ptr<Shape> shape;
         try {
             shape = mesh(text + "f 1 2 3\n");

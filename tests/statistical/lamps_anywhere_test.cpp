@@ -28,13 +28,15 @@ struct Setting {
 };
 
 // A rectangle that an instance's map, which turns, shears and mirrors, puts to `place`. About as large as told.
-void add_in_instance(LittleScene& little, TestRandom& random, const Vec3d& place, double size, const Vec3d& normal)
+void add_in_instance(LittleScene& little, TestRandom& random, const Vec3d& place, double size,
+                     const Vec3d& normal)
 {
     const auto factor = [&] {
         return std::pow(10.0, random.between(-1, 1)) * (random.next_1d() < 0.5f ? -1.0 : 1.0);
     };
     const double reach = length(place) + 1.0;
-    const Vec3d offset(random.between(-reach, reach), random.between(-reach, reach), random.between(-reach, reach));
+    const Vec3d offset(random.between(-reach, reach), random.between(-reach, reach),
+                       random.between(-reach, reach));
     const Vec3d axes[2] = {Vec3d(random.direction()), Vec3d(random.direction())};
     const double angles[2] = {random.between(0, 360), random.between(0, 360)};
     const double x = factor(), y = factor(), z = factor();
@@ -44,7 +46,8 @@ void add_in_instance(LittleScene& little, TestRandom& random, const Vec3d& place
     Vec3d object_normal(0.0);
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j)
-            object_normal[j] += map.rows()[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] * normal[i];
+            object_normal[j] +=
+                map.rows()[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] * normal[i];
     const double object_size = size / std::max({std::abs(x), std::abs(y), std::abs(z)});
     little.instance(ParamsBuilder("shape", "rectangle")
                         .point("center", Vec3f(map.inverse().point(place)))
@@ -82,7 +85,8 @@ std::optional<Setting> random_setting(TestRandom& random, LampKind kind, double 
     if (in_instance)
         add_in_instance(little, random, place, size * 0.5, facing);
     else
-        little.rectangle(Vec3f(place), static_cast<float>(size), static_cast<float>(size), normal, diffuse(1.f));
+        little.rectangle(Vec3f(place), static_cast<float>(size), static_cast<float>(size), normal,
+                         diffuse(1.f));
     auto shape = shape_of(lamp);
     little.add_shape(std::move(shape), diffuse(0.f), Color(1.f));
     Scene scene = little.build();
@@ -129,8 +133,8 @@ void check_lamps(int settings_of_a_kind, std::uint64_t samples, std::uint64_t se
     for (const LampKind kind : all_lamp_kinds) {
         int lit = 0;
         for (int i = 0; i < settings_of_a_kind; ++i) {
-            const auto setting =
-                random_setting(random, kind, planes[static_cast<std::size_t>(i) % std::size(planes)], in_instance);
+            const auto setting = random_setting(
+                random, kind, planes[static_cast<std::size_t>(i) % std::size(planes)], in_instance);
             if (!setting || !(setting->expected > 0.0)) continue;
             ++lit;
             for (const NamedParams& named : emitter_samplers(setting->scene)) {

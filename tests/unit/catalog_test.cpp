@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "model/composite.h"
 #include "plumb/image/image.h"
 #include "plumb/model/bsdf.h"
 #include "plumb/model/camera.h"
@@ -8,7 +9,6 @@
 #include "plumb/model/sampler.h"
 #include "plumb/model/shape.h"
 #include "plumb/scene_file/scene_file.h"
-#include "model/composite.h"
 #include "scene_file/catalog.h"
 #include "scene_file/manual.h"
 #include "support/catch.h"

@@ -165,7 +165,8 @@ TEST_CASE("equal spheres coincide, and others do not", "[unit][coincidence]")
                "'/><float name='radius' value='" + radius + "'/></mesh>";
     };
     const auto found = [&](const std::string& a, const std::string& b) {
-        return find_coincidences(load_text(start + a + sphere("9,9,9", "0.5") + b + "</scene>").job.scene.objects())
+        return find_coincidences(
+                   load_text(start + a + sphere("9,9,9", "0.5") + b + "</scene>").job.scene.objects())
             .found;
     };
     const auto equal = found(sphere("1,2,3", "0.7"), sphere("1,2,3", "0.7"));

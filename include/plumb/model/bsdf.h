@@ -16,6 +16,7 @@ enum class Lobe : unsigned {
     glossy_transmission = 4,
     delta_reflection = 8,
     delta_transmission = 16,
+    null = 32, // straight on, as if there were no surface
 };
 
 // A set of lobes.
@@ -31,7 +32,7 @@ constexpr Lobes operator|(Lobe a, Lobe b)
 {
     return Lobes(a) | Lobes(b);
 }
-inline constexpr Lobes delta_lobes = Lobe::delta_reflection | Lobe::delta_transmission;
+inline constexpr Lobes delta_lobes = Lobe::delta_reflection | Lobe::delta_transmission | Lobe::null;
 inline constexpr Lobes transmission_lobes = Lobe::glossy_transmission | Lobe::delta_transmission;
 
 struct BsdfValue {
@@ -49,6 +50,7 @@ struct BsdfSample {
 
     bool is_delta() const { return delta_lobes.has_any(lobe); }
     bool is_transmission() const { return transmission_lobes.has_any(lobe); }
+    bool is_pass() const { return lobe == Lobe::null; }
 };
 
 // Conventions (after Veach 1997, section 3.7). wi: towards where the path came from (the camera's side), given.
@@ -62,6 +64,9 @@ struct BsdfSample {
 // there (integrators/vertex.h). A BSDF that bends the normal therefore is black for directions that lie on different
 // sides of the shading normal and of its own; its density is 0 there, too, and is not scaled up elsewhere.
 //
+// A null lobe is a delta lobe of weight 1 with wo = -wi. It does not end the section between two vertices of a path: light
+// sampling and emission see through it (path_loop.h, Tracer::visible).
+//
 // Nothing, from sample(): the path ends here (absorbed, or wi on a side that does not reflect).
 class Bsdf {
 public:
@@ -71,6 +76,8 @@ public:
     virtual bool is_oriented() const { return false; }
     // Whether light is reflected or transmitted behind the surface as well; else it is black from there.
     virtual bool has_back() const { return lobes().has_any(transmission_lobes); }
+    // 1 minus the fraction of light that passes straight through, by null lobes alone.
+    virtual float opacity(const SurfacePoint& /*at*/) const { return 1.f; }
     // Whether f(wi, wo) / eta_i^2 = f(wo, wi) / eta_o^2 (Veach 1997, equation 5.14). Not so for bent normals.
     virtual bool is_reciprocal() const { return true; }
     virtual BsdfValue evaluate(const SurfacePoint& at, const Vec3f& wi, const Vec3f& wo) const = 0;

@@ -24,9 +24,9 @@ struct alignas(16) SurfacePoint {
     Frame shading;
     std::uint32_t emitter_index = 0; // into the scene's emitters; meaningless without emitter
     Vec2f uv;
-    const Shape* shape = nullptr;     // in the space of the group where there is an instance
-    const Bsdf* bsdf = nullptr;       // never null at a point that Scene returns
-    const Emitter* emitter = nullptr; // null where nothing is emitted
+    const Shape* shape = nullptr;          // in the space of the group where there is an instance
+    const Bsdf* bsdf = nullptr;            // never null at a point that Scene returns
+    const Emitter* emitter = nullptr;      // null where nothing is emitted
     const InstanceMap* instance = nullptr; // null unless the shape is in an instance
 
     // A ray leaving in `direction` (any length), started off the surface on that side.

@@ -30,7 +30,7 @@ class Group {
 public:
     Group(std::vector<SceneObject> objects, std::string name);
     const std::vector<SceneObject>& objects() const { return objects_; }
-    const Box3f& bounds() const { return bounds_; } // in its own space
+    const Box3f& bounds() const { return bounds_; }   // in its own space
     const std::string& name() const { return name_; } // "group 'tree' (garden.xml:5)", for people
 
 private:
@@ -95,6 +95,7 @@ public:
     EmitterValue emission(const LightReceiver& receiver, const Vec3f& wi, const SurfacePoint* hit,
                           Measure measure = Measure::best) const;
 
+    bool has_null_surfaces() const { return has_null_surfaces_; } // light passes straight through them
     bool has_delta_emitters() const { return delta_choice_.can_sample(); }
     bool emitters_absorb() const { return options_.emitters_absorb; }
     const std::vector<const Emitter*>& emitters() const { return emitters_; } // all, in document order
@@ -131,6 +132,7 @@ private:
     std::vector<std::uint32_t> infinite_;  // indices of infinite, not delta emitters
     LightTree choice_;
     LightTree delta_choice_; // among delta emitters alone
+    bool has_null_surfaces_ = false;
     std::unique_ptr<Accel> accel_;
 };
 

@@ -82,11 +82,19 @@ public:
         failed_ = true;
         return true;
     }
-    // Whether light from the sampled point arrives at `from`.
-    bool visible(const SurfacePoint& from, const EmitterSample& light)
+    // What fraction of the light from the sampled point arrives at `from`: 0 or 1 where no surfaces are there that light
+    // passes straight through.
+    float visible(const SurfacePoint& from, const EmitterSample& light)
     {
-        return !occluded(Scene::shadow_ray(from, light));
+        const Ray ray = Scene::shadow_ray(from, light);
+        if (!scene_.has_null_surfaces()) [[likely]]
+            return occluded(ray) ? 0.f : 1.f;
+        return light.distance == infinity ? transmittance(ray) : transmittance_to_end(ray);
     }
+    // What fraction of light passes along a ray. Surfaces attenuate it in the order in which the ray meets them.
+    float transmittance(const Ray& ray);
+    // Shadow rays that pass more surfaces than these are occluded (integrators that count passes); by default any number.
+    void limit_passes(int most) { most_passes_ = most; }
 
     // Whether a ray since the last call was not traceable (ray.h): it met nothing and saw nothing, and the sample that
     // asked for it must not count.
@@ -101,10 +109,15 @@ public:
     void log_contribution(PathEvent::Kind kind, const char* what, const Color& contribution);
 
 private:
+    // The same for a ray between two points: every piece of it goes to the same end.
+    float transmittance_to_end(const Ray& ray);
+    template <class Rest>
+    float transmittance(Ray ray, const Rest& rest);
     std::optional<SurfacePoint> intersect_watched(const Ray& ray, RayKind kind);
 
     const Scene& scene_;
     RayCounts counts_;
+    int most_passes_ = std::numeric_limits<int>::max();
     bool failed_ = false;
     std::vector<PathEvent>* log_;
     FirstSurfaces* first_;
