@@ -165,8 +165,7 @@ TEST_CASE("odd PLY meshes are repaired, with a warning", "[unit][ply]")
     CHECK(normals.normals == std::vector<Vec3f>{{0, 0, 1}, {0, 0.6f, 0.8f}, {0, 0, 1}});
     CHECK(normals.warning == "1 of 3 normals have length zero, where those of the faces are used");
 
-    CHECK(read_text(ascii("3 0 1 2\n3 0 1 2\n\n", 1)).warning ==
-          "1 lines behind the last element are ignored");
+    CHECK(read_text(ascii("3 0 1 2\n3 0 1 2\n\n", 1)).warning == "1 line behind the last element is ignored");
 }
 
 TEST_CASE("errors of PLY headers name the place", "[unit][ply]")
@@ -228,21 +227,21 @@ TEST_CASE("PLY files that announce more than they have take no memory for it", "
 
 TEST_CASE("errors of PLY data name the line, or the vertex or face", "[unit][ply]")
 {
-    CHECK(error_of(ascii("3 0 1 4\n")) == "13:7 [4] there is no vertex 4; the file has 4, counted from 0");
-    CHECK(error_of(ascii("3 0 1 -1\n")) == "13:7 [-1] '-1' is not a whole number from 0");
-    CHECK(error_of(ascii("3 0 1\n")) == "13:6 [] the line ends before property 'vertex_indices' of 'face'");
-    CHECK(error_of(ascii("2 0 1\n")) == "13:3 [0] a face needs at least 3 corners, not 2");
+    CHECK(error_of(ascii("3 0 1 4\n")) == "14:7 [4] there is no vertex 4; the file has 4, counted from 0");
+    CHECK(error_of(ascii("3 0 1 -1\n")) == "14:7 [-1] '-1' is not a whole number from 0");
+    CHECK(error_of(ascii("3 0 1\n")) == "14:6 [] the line ends before property 'vertex_indices' of 'face'");
+    CHECK(error_of(ascii("2 0 1\n")) == "14:3 [0] a face needs at least 3 corners, not 2");
     CHECK(error_of(ascii("4000000000 0 1\n")) ==
-          "13:15 [] the line ends before property 'vertex_indices' of 'face'");
-    CHECK(error_of(ascii("3 0 1 2 9\n")) == "13:9 [9] more values than the 1 properties of 'face' have");
+          "14:15 [] the line ends before property 'vertex_indices' of 'face'");
+    CHECK(error_of(ascii("3 0 1 2 9\n")) == "14:9 [9] more values than the properties of 'face' take");
     CHECK(error_of(header("ascii", 3, "", 1) + "0 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n") ==
-          "10:3 [nan] 'nan' is not a finite number");
+          "11:3 [nan] 'nan' is not a finite number");
     CHECK(error_of(header("ascii", 3, "", 1) + "0 0 0\n1 2e18 0\n0 1 0\n3 0 1 2\n") ==
-          "10:3 [2e18] '2e18' is too large: numbers may be at most 1e+18");
+          "11:3 [2e18] '2e18' is too large: numbers may be at most 1e+18");
     CHECK(error_of(header("ascii", 3, "", 1) + "0 0 0\n1 0,5 0\n0 1 0\n3 0 1 2\n") ==
-          "10:3 [0,5] '0,5' is not a number");
+          "11:3 [0,5] '0,5' is not a number");
     CHECK(error_of(header("ascii", 3, "", 1) + "0 0\n1 0 0\n0 1 0\n3 0 1 2\n") ==
-          "9:4 [] the line ends before property 'z' of 'vertex'");
+          "10:4 [] the line ends before property 'z' of 'vertex'");
 
     const auto binary = [](const std::string& data, std::uint64_t faces = 1) {
         return error_of(header("binary_little_endian", 3, "", faces) + data);

@@ -82,7 +82,8 @@ public:
             is_text ? read_ply_text(file_, plans_, chunks) : read_ply_binary(file_, plans_, chunks);
         if (rest > 0)
             mesh_.warning =
-                fmt::format("{} {} behind the last element are ignored", rest, is_text ? "lines" : "bytes");
+                fmt::format("{} {}{} behind the last element {} ignored", rest, is_text ? "line" : "byte",
+                            rest == 1 ? "" : "s", rest == 1 ? "is" : "are");
         make_triangles(chunks);
         tidy_mesh(mesh_);
         return std::move(mesh_);

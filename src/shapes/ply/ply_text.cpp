@@ -151,8 +151,8 @@ private:
         }
         p = skip_blanks(p, end);
         if (p != end)
-            fail({p, token_end(p, end)}, fmt::format("more values than the {} properties of '{}' have",
-                                                     properties.size(), excerpt(plan.element->name)));
+            fail({p, token_end(p, end)},
+                 fmt::format("more values than the properties of '{}' take", excerpt(plan.element->name)));
     }
 
     void read_face(const PlyPlan& plan, std::uint64_t count, const char*& p, const char* end,
