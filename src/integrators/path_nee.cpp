@@ -14,6 +14,8 @@ namespace plumb {
 ///     maxDepth   integer   surface bounces: 0 shows emitters only, 1 direct light, -1 everything   (default -1)
 ///     rrDepth    integer   bounces before Russian roulette starts   (default 3)
 ///     countPasses   boolean   whether passing straight through a mask costs a bounce, of shadow rays as well   (default false)
+///     hideEmitters   boolean   the camera sees through surfaces that emit, and no environment; mirrors show them
+///                              (default false)
 ///
 ///         <integrator type="path_nee"/>
 class PathNee final : public EstimatorIntegrator {
