@@ -14,7 +14,7 @@ namespace plumb {
 /// make a rectangle, from nearer than their diagonal is long; all else uniformly over its area. Stands inside the mesh
 /// or shape that emits.
 ///
-///     radiance   color or texture   in W / (m^2 sr), at least 0   (default 1; mcgill dialect: 0)
+///     radiance   color or texture   in W / (m^2 sr), at least 0   (default 1)
 ///     scale      float              multiplies radiance           (default 1)
 ///
 ///         <shape type="sphere">
@@ -25,8 +25,7 @@ namespace plumb {
 class AreaEmitter final : public Emitter {
 public:
     explicit AreaEmitter(const Params& params)
-        : radiance_(
-              params.texture("radiance", Color(params.dialect().name == DialectName::mcgill ? 0.f : 1.f))),
+        : radiance_(params.texture("radiance", Color(1.f))),
           scale_(params.number("scale", 1.f, Range::at_least(0.0))),
           shape_(params.parent_shape())
     {

@@ -14,7 +14,7 @@ namespace {
 class ChildBuilder {
 public:
     ChildBuilder(const Element& element, const LoadContext& scene)
-        : element_(element), context_{built_.diagnostics, scene.dialect, scene.lenient, {}, 0, scene.shared}
+        : element_(element), context_{built_.diagnostics, scene.dialect, scene.lenient, {}, 0, scene.shared, 0, scene.vocabulary}
     {}
 
     BuiltChild build()
@@ -43,7 +43,7 @@ private:
         object.bsdf = bsdf ? build_bsdf(*bsdf, context_) : default_bsdf();
         if (emitter) object.emitter = build_area_light(*emitter, object.shape.get());
         const SourceLocation at = element_.place();
-        object.name = fmt::format("{} '{}' ({}:{})", element_.tag, reader.type(),
+        object.name = fmt::format("{} '{}' ({}:{})", element_.written_tag(), element_.written_type(),
                                   std::filesystem::path(at.file).filename().string(), at.line);
     }
 
