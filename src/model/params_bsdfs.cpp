@@ -30,8 +30,9 @@ std::shared_ptr<const Bsdf> Params::bsdf(std::size_t i) const
         bsdfs_[i].asked = true;
         if (bsdfs_[i].bsdf) return bsdfs_[i].bsdf;
     } else {
-        diagnostics_.error(element_at_, fmt::format("{} '{}' needs {} inside it: <bsdf type=\"diffuse\"/>",
-                                                    written_kind(), written_type(), i == 0 ? "a <bsdf>" : "one more <bsdf>"));
+        diagnostics_.error(element_at_,
+                           fmt::format("{} '{}' needs {} inside it: <bsdf type=\"diffuse\"/>", written_kind(),
+                                       written_type(), i == 0 ? "a <bsdf>" : "one more <bsdf>"));
     }
     return std::make_shared<BlackBsdf>();
 }

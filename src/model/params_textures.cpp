@@ -49,8 +49,8 @@ std::shared_ptr<const Texture> Params::texture_child(std::string_view name, cons
     const TextureChild* child = find_texture(name);
     if (!child) return nullptr;
     if (find(name)) {
-        diagnostics_.error(child->at, fmt::format("{} is given twice, as a value and as a texture",
-                                                  as_written(name)));
+        diagnostics_.error(child->at,
+                           fmt::format("{} is given twice, as a value and as a texture", as_written(name)));
         return nullptr;
     }
     if (!child->texture) return nullptr;

@@ -14,7 +14,8 @@ namespace {
 class ChildBuilder {
 public:
     ChildBuilder(const Element& element, const LoadContext& scene)
-        : element_(element), context_{built_.diagnostics, scene.dialect, scene.lenient, {}, 0, scene.shared, 0, scene.vocabulary}
+        : element_(element),
+          context_{built_.diagnostics, scene.dialect, scene.lenient, {}, 0, scene.shared, 0, scene.vocabulary}
     {}
 
     BuiltChild build()

@@ -182,7 +182,8 @@ std::optional<Element> parse_document(const std::filesystem::path& path, std::st
                                       Diagnostics& diagnostics, bool objects)
 {
     const std::string_view tag = root_tag(text);
-    const bool is_ours = tag == "scene" || tag == "test" || tag == "suite" || (objects && is_object_of_mitsuba(tag));
+    const bool is_ours =
+        tag == "scene" || tag == "test" || tag == "suite" || (objects && is_object_of_mitsuba(tag));
     // The text moves and the tag with it, so this comes before.
     Element stranger;
     stranger.tag = tag;

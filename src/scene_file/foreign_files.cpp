@@ -88,9 +88,10 @@ std::optional<Diagnostic> foreign_scene(const Element& root)
 {
     if (root.tag != "scene" || root.attribute("dialect")) return {};
     if (const Attribute* version = root.attribute("version"))
-        return Diagnostic{Severity::error, root.name_place(*version),
-                          fmt::format("this is a scene of Mitsuba {}, which one of Plumb's own scenes cannot include",
-                                      version->value)};
+        return Diagnostic{
+            Severity::error, root.name_place(*version),
+            fmt::format("this is a scene of Mitsuba {}, which one of Plumb's own scenes cannot include",
+                        version->value)};
     const Element* found = find_mitsuba(root);
     if (!found) return {};
     return Diagnostic{Severity::error, found->place(),

@@ -47,7 +47,8 @@ public:
         gather_children(root);
         for (const auto& [name, value] : definitions_)
             if (!used_.contains(name))
-                diagnostics_.error({}, fmt::format("-D {}={}: no file of this scene uses ${}", name, value, name));
+                diagnostics_.error(
+                    {}, fmt::format("-D {}={}: no file of this scene uses ${}", name, value, name));
         check_ids(root);
         resolve_aliases(root);
         return {std::move(root), std::move(files_)};
@@ -127,10 +128,11 @@ private:
         }
         replaced_size_ += result.size();
         if (replaced_size_ > limits_.replaced_size) {
-            diagnostics_.error(element.value_place(attribute),
-                               fmt::format("with all $names replaced, the values of this scene are longer than {} bytes "
-                                           "together",
-                                           limits_.replaced_size));
+            diagnostics_.error(
+                element.value_place(attribute),
+                fmt::format("with all $names replaced, the values of this scene are longer than {} bytes "
+                            "together",
+                            limits_.replaced_size));
             attribute.broken = true;
             return;
         }
@@ -161,7 +163,9 @@ private:
             !near.empty() ? fmt::format("did you mean '${}'?", near)
             : name.starts_with("{")
                 ? "write $name, without braces"
-                : fmt::format("give it one with -D {0}=..., or with <default name=\"{0}\" value=\"...\"/> before it", name);
+                : fmt::format(
+                      "give it one with -D {0}=..., or with <default name=\"{0}\" value=\"...\"/> before it",
+                      name);
         diagnostics_.error(element.part_place(attribute, dollar, end + 1),
                            fmt::format("${} has no value here; {}", name, help));
     }
@@ -170,9 +174,11 @@ private:
 
     void add_path(const Element& element)
     {
-        if (!check_attributes(element, {"value"}, {}, diagnostics_) || element.attribute("value")->broken) return;
+        if (!check_attributes(element, {"value"}, {}, diagnostics_) || element.attribute("value")->broken)
+            return;
         const fs::path path(element.value("value"));
-        directories_.insert(directories_.begin(), path.is_absolute() ? path : element.file->directory() / path);
+        directories_.insert(directories_.begin(),
+                            path.is_absolute() ? path : element.file->directory() / path);
     }
 
     // Where the file is that is not beside the file that names it; empty: nowhere.
@@ -205,33 +211,38 @@ private:
         if (filename.broken) return;
         const SourceLocation at = element.value_place(filename);
         const auto fail = [&](std::string message) { diagnostics_.error(at, std::move(message)); };
-        if (level_ == most_levels) return fail(fmt::format("files include each other more than {} levels deep", most_levels));
-        if (files_.size() >= limits_.files) return fail(fmt::format("more than {} files are included", limits_.files));
+        if (level_ == most_levels)
+            return fail(fmt::format("files include each other more than {} levels deep", most_levels));
+        if (files_.size() >= limits_.files)
+            return fail(fmt::format("more than {} files are included", limits_.files));
         if (text_size_ > limits_.text_size || parts_ > limits_.parts) return; // has been reported
         const fs::path other = elsewhere(element, filename.value);
-        const auto [path, way_out, notice] = other.empty() ? find_named_file(element.file->directory(), filename.value)
-                                                           : NamedFile{other, {}, {}};
+        const auto [path, way_out, notice] = other.empty()
+                                                 ? find_named_file(element.file->directory(), filename.value)
+                                                 : NamedFile{other, {}, {}};
         if (!notice.empty()) diagnostics_.warning(at, notice);
         std::optional<Element> root;
         try {
             std::string text = read_text(path);
             text_size_ += text.size();
             if (text_size_ > limits_.text_size)
-                return fail(fmt::format("with '{}', the files of this scene are larger than {} bytes together",
-                                        path.string(), limits_.text_size));
+                return fail(
+                    fmt::format("with '{}', the files of this scene are larger than {} bytes together",
+                                path.string(), limits_.text_size));
             root = parse_document(path, std::move(text), diagnostics_, true);
         } catch (const Error& error) {
             return fail(error.what() + way_out);
         }
         if (!root) return;
         if (root->tag != "scene" && root->attributes.empty() && root->children.empty())
-            return fail(fmt::format("'{}' begins with <{}>; a scene can include a <scene> or one of its objects",
-                                    path.string(), root->tag));
+            return fail(
+                fmt::format("'{}' begins with <{}>; a scene can include a <scene> or one of its objects",
+                            path.string(), root->tag));
         files_.push_back(root->file);
         parts_ += count_parts(*root);
         if (parts_ > limits_.parts)
-            return fail(fmt::format("with '{}', this scene has more than {} elements and attributes", path.string(),
-                                    limits_.parts));
+            return fail(fmt::format("with '{}', this scene has more than {} elements and attributes",
+                                    path.string(), limits_.parts));
         ++level_;
         if (root->tag == "scene") {
             substitute(*root);
@@ -263,12 +274,14 @@ private:
     // Recursion ends: parse_document().
     void check_ids(const Element& element)
     {
-        if (const Attribute* id = element.tag == "ref" ? nullptr : element.attribute("id"); id && !id->broken) {
+        if (const Attribute* id = element.tag == "ref" ? nullptr : element.attribute("id");
+            id && !id->broken) {
             const auto [first, is_new] = ids_.emplace(id->value, &element);
             if (!is_new) {
                 const SourceLocation place = first->second->place(), at = element.value_place(*id);
-                diagnostics_.error(at, fmt::format("the id '{}' is given twice; first given at {} {}", id->value,
-                                                   place.file == at.file ? "line" : place.file, place.line));
+                diagnostics_.error(at,
+                                   fmt::format("the id '{}' is given twice; first given at {} {}", id->value,
+                                               place.file == at.file ? "line" : place.file, place.line));
             }
         }
         for (const Element& child : element.children) check_ids(child);

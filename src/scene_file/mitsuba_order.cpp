@@ -22,7 +22,8 @@ public:
         std::vector<Element> kept;
         kept.reserve(root_.children.size() + 2);
         for (Element& child : root_.children) {
-            if (child.tag == "camera" && std::exchange(has_camera_, true)) continue; // Mitsuba takes the first
+            if (child.tag == "camera" && std::exchange(has_camera_, true))
+                continue; // Mitsuba takes the first
             if (child.tag == "camera") order_camera(child);
             if (child.tag == "integrator") order_integrator(child);
             if (child.tag == "shape") order_shape(child);
@@ -32,9 +33,12 @@ public:
         }
         // Unless it was refused.
         if (!has_camera_ && !diagnostics_.has_errors())
-            diagnostics_.error(root_.place(), "the scene has no <sensor>; write <sensor type=\"perspective\"> ... </sensor>");
+            diagnostics_.error(
+                root_.place(),
+                "the scene has no <sensor>; write <sensor type=\"perspective\"> ... </sensor>");
         if (!has_integrator_ && !diagnostics_.has_errors())
-            diagnostics_.error(root_.place(), "the scene has no <integrator>; write <integrator type=\"path\"/>");
+            diagnostics_.error(root_.place(),
+                               "the scene has no <integrator>; write <integrator type=\"path\"/>");
         if (sampler_) kept.push_back(*std::move(sampler_));
         root_.children = std::move(kept);
     }
@@ -44,8 +48,8 @@ private:
     void order_camera(Element& camera)
     {
         if (camera.written_type() == "thinlens")
-            for (const auto& [ours, theirs] : {std::pair("lensRadius", "aperture_radius"),
-                                               std::pair("focalDistance", "focus_distance")})
+            for (const auto& [ours, theirs] :
+                 {std::pair("lensRadius", "aperture_radius"), std::pair("focalDistance", "focus_distance")})
                 require(camera, ours, theirs);
         std::vector<Element> kept, of_film;
         std::optional<Element> filter;
@@ -82,9 +86,10 @@ private:
         if (std::any_of(element.children.begin(), element.children.end(),
                         [&](const Element& child) { return child.value("name") == ours; }))
             return;
-        diagnostics_.error(element.place(), fmt::format("{0} '{1}' needs a parameter '{2}': <float name=\"{2}\" "
-                                                        "value=\"1.0\"/>",
-                                                        element.written_tag(), element.written_type(), theirs));
+        diagnostics_.error(element.place(),
+                           fmt::format("{0} '{1}' needs a parameter '{2}': <float name=\"{2}\" "
+                                       "value=\"1.0\"/>",
+                                       element.written_tag(), element.written_type(), theirs));
     }
 
     // Recursion ends: parse_document().
@@ -94,12 +99,14 @@ private:
         const std::string type = integrator.value("type");
         if (type != "moment" && type != "aov") return;
         if (type == "aov")
-            diagnostics_.warning(integrator.place(), "the channels of 'aov' are not written; --aov writes some");
+            diagnostics_.warning(integrator.place(),
+                                 "the channels of 'aov' are not written; --aov writes some");
         const auto inner = std::find_if(integrator.children.begin(), integrator.children.end(),
                                         [](const Element& child) { return child.tag == "integrator"; });
         if (inner == integrator.children.end()) {
-            diagnostics_.error(integrator.place(),
-                               fmt::format("integrator '{}' needs one inside it: <integrator type=\"path\"/>", type));
+            diagnostics_.error(
+                integrator.place(),
+                fmt::format("integrator '{}' needs one inside it: <integrator type=\"path\"/>", type));
             integrator = made_object(integrator, "integrator", "path_mis");
             return;
         }

@@ -46,8 +46,14 @@ std::optional<std::vector<SpectrumPoint>> read_pairs(const Element& element, con
             half.value = k == 0 ? pair.substr(0, colon) : pair.substr(colon + 1);
             half.value_offset = attribute.value_offset + i + (k == 0 ? 0 : colon + 1);
             half.value_length = half.value.size();
-            if (!attribute.verbatim) half = {half.name, half.value, attribute.name_offset, attribute.value_offset,
-                                             attribute.value_length, false, false};
+            if (!attribute.verbatim)
+                half = {half.name,
+                        half.value,
+                        attribute.name_offset,
+                        attribute.value_offset,
+                        attribute.value_length,
+                        false,
+                        false};
             const auto number = read_number(element, half, diagnostics);
             if (!number) return {};
             numbers[k] = *number;
@@ -73,7 +79,8 @@ std::optional<Vec3d> read_spectrum(const Element& element, const Attribute& valu
     if (!points) return {};
     if (role == Role::emission) return color_of_light(*points);
     Vec3d color = color_under_d65(*points);
-    if (role == Role::reflectance) color = Vec3d(std::min(color.x, 1.0), std::min(color.y, 1.0), std::min(color.z, 1.0));
+    if (role == Role::reflectance)
+        color = Vec3d(std::min(color.x, 1.0), std::min(color.y, 1.0), std::min(color.z, 1.0));
     return color;
 }
 
@@ -96,7 +103,8 @@ bool to_color(Element& parameter, Role role, Diagnostics& diagnostics)
     }
     const auto numbers = read_numbers(parameter, *value, {3, 1}, diagnostics);
     if (!numbers) return false;
-    if (numbers->size() == 1) set_attribute(parameter, "value", triple((*numbers)[0], (*numbers)[0], (*numbers)[0]));
+    if (numbers->size() == 1)
+        set_attribute(parameter, "value", triple((*numbers)[0], (*numbers)[0], (*numbers)[0]));
     return true;
 }
 
@@ -123,8 +131,8 @@ bool flatten_spectrum(Element& element, std::initializer_list<std::string_view> 
     for (const Element& child : element.children)
         if (std::find(known.begin(), known.end(), child.value("name")) == known.end()) {
             diagnostics.error(child.place(),
-                              fmt::format("unknown parameter '{}' for {} '{}'{}", child.value("name"), element.tag,
-                                          element.value("type"),
+                              fmt::format("unknown parameter '{}' for {} '{}'{}", child.value("name"),
+                                          element.tag, element.value("type"),
                                           way_out(child.value("name"), {known.begin(), known.end()})));
             return false;
         }
@@ -159,28 +167,33 @@ bool spectrum_object(Element& element, Diagnostics& diagnostics)
         const double kelvin = number_of(element, "temperature", 5000.0, diagnostics);
         const double scale = number_of(element, "scale", 1.0, diagnostics);
         if (!(kelvin > 0.0)) {
-            diagnostics.error(element.place(), fmt::format("temperature must be greater than 0, not {}", kelvin));
+            diagnostics.error(element.place(),
+                              fmt::format("temperature must be greater than 0, not {}", kelvin));
             return false;
         }
         if (good_before)
-            diagnostics.warning(element.place(),
-                                "Mitsuba has no black bodies in its RGB modes; this is Planck's law in W/(m^2 sr nm)");
+            diagnostics.warning(
+                element.place(),
+                "Mitsuba has no black bodies in its RGB modes; this is Planck's law in W/(m^2 sr nm)");
         const Vec3d color = color_of_black_body(kelvin) * scale;
         return flatten({"temperature", "scale"}, "rgb", triple(color.x, color.y, color.z));
     }
     // irregular: two lists of the same length.
-    const Element *wavelengths = child_named(element, "wavelengths"), *values = child_named(element, "values");
+    const Element *wavelengths = child_named(element, "wavelengths"),
+                  *values = child_named(element, "values");
     const Attribute *first = wavelengths ? wavelengths->attribute("value") : nullptr,
                     *second = values ? values->attribute("value") : nullptr;
     if (!first || !second) {
         diagnostics.error(element.place(), "an irregular spectrum needs strings 'wavelengths' and 'values'");
         return false;
     }
-    const auto x = read_number_list(*wavelengths, *first, diagnostics), y = read_number_list(*values, *second, diagnostics);
+    const auto x = read_number_list(*wavelengths, *first, diagnostics),
+               y = read_number_list(*values, *second, diagnostics);
     if (!x || !y) return false;
     if (x->size() != y->size()) {
-        diagnostics.error(values->value_place(*second),
-                          fmt::format("expected {} values, one for each wavelength, not {}", x->size(), y->size()));
+        diagnostics.error(
+            values->value_place(*second),
+            fmt::format("expected {} values, one for each wavelength, not {}", x->size(), y->size()));
         return false;
     }
     std::string pairs;
@@ -198,7 +211,8 @@ bool is_spectrum_object(const Element& element)
 // --- Syntax ---------------------------------------------------------------------------------------------------
 
 // x= y= z= as one list. missing: what stands for one that is not there; nothing: all are required.
-bool join_axes(Element& element, std::string_view into, std::optional<double> missing, Diagnostics& diagnostics)
+bool join_axes(Element& element, std::string_view into, std::optional<double> missing,
+               Diagnostics& diagnostics)
 {
     std::string list;
     for (const char* axis : {"x", "y", "z"}) {
@@ -235,13 +249,15 @@ bool repeat_one(Element& element, Diagnostics& diagnostics)
     if (!value) return true;
     const auto numbers = read_numbers(element, *value, {3, 1}, diagnostics);
     if (!numbers) return false;
-    if (numbers->size() == 1) set_attribute(element, "value", triple((*numbers)[0], (*numbers)[0], (*numbers)[0]));
+    if (numbers->size() == 1)
+        set_attribute(element, "value", triple((*numbers)[0], (*numbers)[0], (*numbers)[0]));
     return true;
 }
 
 bool vector_syntax(Element& element, std::optional<double> missing, Diagnostics& diagnostics)
 {
-    return has_axes(element) ? join_axes(element, "value", missing, diagnostics) : repeat_one(element, diagnostics);
+    return has_axes(element) ? join_axes(element, "value", missing, diagnostics)
+                             : repeat_one(element, diagnostics);
 }
 
 bool rotate_syntax(Element& element, Diagnostics& diagnostics)
@@ -256,10 +272,11 @@ bool rotate_syntax(Element& element, Diagnostics& diagnostics)
     if (!numbers) return axis == nullptr; // its absence is reported elsewhere
     const double length = std::hypot((*numbers)[0], (*numbers)[1], (*numbers)[2]);
     if (length > 0.0 && std::abs(length - 1.0) > 1e-4)
-        diagnostics.warning(element.place(),
-                            fmt::format("the axis has the length {:.4g} and is made a unit vector; Mitsuba, which does not, "
-                                        "also scales and shears here",
-                                        length));
+        diagnostics.warning(
+            element.place(),
+            fmt::format("the axis has the length {:.4g} and is made a unit vector; Mitsuba, which does not, "
+                        "also scales and shears here",
+                        length));
     return true;
 }
 
@@ -268,7 +285,8 @@ bool lookat_syntax(Element& element, Diagnostics& diagnostics)
     if (element.attribute("up")) return true;
     const Attribute *origin = element.attribute("origin"), *target = element.attribute("target");
     if (!origin || !target) return true; // reported elsewhere
-    const auto from = read_numbers(element, *origin, {3}, diagnostics), to = read_numbers(element, *target, {3}, diagnostics);
+    const auto from = read_numbers(element, *origin, {3}, diagnostics),
+               to = read_numbers(element, *target, {3}, diagnostics);
     if (!from || !to) return false;
     Vec3d z((*to)[0] - (*from)[0], (*to)[1] - (*from)[1], (*to)[2] - (*from)[2]);
     const double length = std::sqrt(z.x * z.x + z.y * z.y + z.z * z.z);
@@ -302,8 +320,9 @@ bool check_separators(const Element& element, Diagnostics& diagnostics)
     for (const Attribute& attribute : element.attributes) {
         const std::size_t at = attribute.value.find_first_of("\t\r\n");
         if (at == std::string::npos || element.tag == "string") continue;
-        diagnostics.error(element.value_place(attribute),
-                          "numbers are separated by commas or blanks, as in Mitsuba, not by tabs or line ends");
+        diagnostics.error(
+            element.value_place(attribute),
+            "numbers are separated by commas or blanks, as in Mitsuba, not by tabs or line ends");
         return false;
     }
     return true;
@@ -313,9 +332,11 @@ bool check_separators(const Element& element, Diagnostics& diagnostics)
 
 bool mitsuba_syntax(Element& element, Diagnostics& diagnostics)
 {
-    if (is_spectrum_object(element) && element.attribute("name")) return spectrum_object(element, diagnostics);
+    if (is_spectrum_object(element) && element.attribute("name"))
+        return spectrum_object(element, diagnostics);
     if (!check_separators(element, diagnostics)) return false;
-    if (element.tag == "point" || element.tag == "vector") return vector_syntax(element, std::nullopt, diagnostics);
+    if (element.tag == "point" || element.tag == "vector")
+        return vector_syntax(element, std::nullopt, diagnostics);
     if (element.tag == "translate") return vector_syntax(element, 0.0, diagnostics);
     if (element.tag == "scale") return vector_syntax(element, 1.0, diagnostics);
     if (element.tag == "rotate") return rotate_syntax(element, diagnostics);
@@ -347,7 +368,8 @@ bool to_number(Element& parameter, Diagnostics& diagnostics)
     const auto c = value ? read_numbers(parameter, *value, {3}, diagnostics) : std::nullopt;
     if (!c) return false;
     rename_tag(parameter, "float");
-    set_attribute(parameter, "value", fmt::format("{}", 0.212671 * (*c)[0] + 0.715160 * (*c)[1] + 0.072169 * (*c)[2]));
+    set_attribute(parameter, "value",
+                  fmt::format("{}", 0.212671 * (*c)[0] + 0.715160 * (*c)[1] + 0.072169 * (*c)[2]));
     return true;
 }
 
@@ -373,14 +395,14 @@ bool index_by_name(Element& parameter, Diagnostics& diagnostics)
         double value;
     };
     constexpr Index indices[] = {
-        {"vacuum", 1.0},           {"helium", 1.000036},      {"hydrogen", 1.000132},
-        {"air", 1.000277},         {"carbon dioxide", 1.00045}, {"water", 1.3330},
-        {"acetone", 1.36},         {"ethanol", 1.361},        {"carbon tetrachloride", 1.461},
-        {"glycerol", 1.4729},      {"benzene", 1.501},        {"silicone oil", 1.52045},
-        {"bromine", 1.661},        {"water ice", 1.31},       {"fused quartz", 1.458},
-        {"pyrex", 1.470},          {"acrylic glass", 1.49},   {"polypropylene", 1.49},
-        {"bk7", 1.5046},           {"sodium chloride", 1.544}, {"amber", 1.55},
-        {"pet", 1.5750},           {"diamond", 2.419},
+        {"vacuum", 1.0},      {"helium", 1.000036},        {"hydrogen", 1.000132},
+        {"air", 1.000277},    {"carbon dioxide", 1.00045}, {"water", 1.3330},
+        {"acetone", 1.36},    {"ethanol", 1.361},          {"carbon tetrachloride", 1.461},
+        {"glycerol", 1.4729}, {"benzene", 1.501},          {"silicone oil", 1.52045},
+        {"bromine", 1.661},   {"water ice", 1.31},         {"fused quartz", 1.458},
+        {"pyrex", 1.470},     {"acrylic glass", 1.49},     {"polypropylene", 1.49},
+        {"bk7", 1.5046},      {"sodium chloride", 1.544},  {"amber", 1.55},
+        {"pet", 1.5750},      {"diamond", 2.419},
     };
     const Attribute* value = parameter.attribute("value");
     if (!value || parameter.tag != "string") return true;
@@ -425,9 +447,11 @@ bool without_scale(Element& parameter, Diagnostics& diagnostics)
     for (std::size_t column = 0; column < 3; ++column) {
         const double length = std::hypot(m[0][column], m[1][column], m[2][column]);
         if (std::abs(length - 1.0) < 1e-3) continue;
-        diagnostics.error(parameter.place(),
-                          fmt::format("the transform of a camera must not scale, as in Mitsuba; this one has a factor of {:.4g}",
-                                      length));
+        diagnostics.error(
+            parameter.place(),
+            fmt::format(
+                "the transform of a camera must not scale, as in Mitsuba; this one has a factor of {:.4g}",
+                length));
         return false;
     }
     return true;

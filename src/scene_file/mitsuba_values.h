@@ -18,11 +18,12 @@ bool color_of_index(Element& parameter, Diagnostics& diagnostics);
 // Also of a colour: its luminance.
 bool to_number(Element& parameter, Diagnostics& diagnostics);
 
-bool depth_minus_one(Element& parameter, Diagnostics& diagnostics); // a number of path segments as one of bounces
-bool index_by_name(Element& parameter, Diagnostics& diagnostics);   // "bk7" as 1.5046
-bool millimetres(Element& parameter, Diagnostics& diagnostics);     // "50mm" as 50
-bool without_scale(Element& parameter, Diagnostics& diagnostics);   // a transform, which must not scale
-bool position_of(Element& parameter, Diagnostics& diagnostics);     // where a transform moves the origin
-bool direction_of(Element& parameter, Diagnostics& diagnostics);    // where a transform turns +z
+bool depth_minus_one(Element& parameter,
+                     Diagnostics& diagnostics); // a number of path segments as one of bounces
+bool index_by_name(Element& parameter, Diagnostics& diagnostics); // "bk7" as 1.5046
+bool millimetres(Element& parameter, Diagnostics& diagnostics);   // "50mm" as 50
+bool without_scale(Element& parameter, Diagnostics& diagnostics); // a transform, which must not scale
+bool position_of(Element& parameter, Diagnostics& diagnostics);   // where a transform moves the origin
+bool direction_of(Element& parameter, Diagnostics& diagnostics);  // where a transform turns +z
 
 } // namespace plumb

@@ -19,12 +19,30 @@ constexpr std::string_view same_light =
     "this is rendered by 'path', which finds the same light up to noise (path_mis in 'renderer types')";
 
 constexpr TagName tags[] = {
-    {"scene", "scene"},         {"integrator", "integrator"}, {"sensor", "camera"},   {"film", "film"},
-    {"rfilter", "rfilter"},     {"sampler", "sampler"},       {"shape", "shape"},     {"bsdf", "bsdf"},
-    {"texture", "texture"},     {"emitter", "emitter"},       {"ref", "ref"},         {"rgb", "color"},
-    {"spectrum", "color"},      {"float", "float"},           {"integer", "integer"}, {"boolean", "boolean"},
-    {"string", "string"},       {"point", "point"},           {"vector", "vector"},   {"transform", "transform"},
-    {"translate", "translate"}, {"scale", "scale"},           {"rotate", "rotate"},   {"lookat", "lookat"},
+    {"scene", "scene"},
+    {"integrator", "integrator"},
+    {"sensor", "camera"},
+    {"film", "film"},
+    {"rfilter", "rfilter"},
+    {"sampler", "sampler"},
+    {"shape", "shape"},
+    {"bsdf", "bsdf"},
+    {"texture", "texture"},
+    {"emitter", "emitter"},
+    {"ref", "ref"},
+    {"rgb", "color"},
+    {"spectrum", "color"},
+    {"float", "float"},
+    {"integer", "integer"},
+    {"boolean", "boolean"},
+    {"string", "string"},
+    {"point", "point"},
+    {"vector", "vector"},
+    {"transform", "transform"},
+    {"translate", "translate"},
+    {"scale", "scale"},
+    {"rotate", "rotate"},
+    {"lookat", "lookat"},
     {"matrix", "matrix"},
 };
 
@@ -431,9 +449,10 @@ DialectChoice mitsuba_choice(const Element& root, const DialectWishes& wishes, D
     choice.dialect.mirrored_view = wishes.mirrored_view.value_or(false);
     choice.dialect.environment_scale = wishes.environment_scale.value_or(1.f);
     if (wishes.name)
-        diagnostics.error(root.name_place(version),
-                          fmt::format("--dialect {}: the attribute 'version' says that this is a scene of Mitsuba",
-                                      to_string(*wishes.name)));
+        diagnostics.error(
+            root.name_place(version),
+            fmt::format("--dialect {}: the attribute 'version' says that this is a scene of Mitsuba",
+                        to_string(*wishes.name)));
     return choice;
 }
 
@@ -449,8 +468,9 @@ const Vocabulary* mitsuba_vocabulary(const Element& root, Diagnostics& diagnosti
         return nullptr;
     }
     if (major >= 2 && major <= 3) return &mitsuba3;
-    diagnostics.error(root.value_place(version),
-                      fmt::format("scenes of Mitsuba {} are not supported; those of 2.x and 3.x are", version.value));
+    diagnostics.error(
+        root.value_place(version),
+        fmt::format("scenes of Mitsuba {} are not supported; those of 2.x and 3.x are", version.value));
     return nullptr;
 }
 

@@ -9,10 +9,8 @@ namespace {
 
 // Other names of our types, in all dialects.
 constexpr TypeName types[] = {
-    {"emitter", "pointlight", "point"},
-    {"camera", "thinlens", "perspective"},
-    {"camera", "perspective_dof", "perspective"},
-    {"camera", "perspective_depth", "perspective"},
+    {"emitter", "pointlight", "point"},           {"camera", "thinlens", "perspective"},
+    {"camera", "perspective_dof", "perspective"}, {"camera", "perspective_depth", "perspective"},
     {"integrator", "path_ems", "path_nee"},
 };
 
@@ -35,7 +33,8 @@ constexpr Ignored ignored[] = {
     {"camera", "perspective_depth", "focallength"},
 };
 
-constexpr Vocabulary nori = {.name = "nori", .types = types, .params = params, .presets = presets, .ignored = ignored};
+constexpr Vocabulary nori = {
+    .name = "nori", .types = types, .params = params, .presets = presets, .ignored = ignored};
 
 constexpr Preset mcgill_presets[] = {
     {"emitter", "area", "color", "radiance", "0 0 0"},
@@ -48,7 +47,8 @@ constexpr Vocabulary eth = {.name = "eth", .base = &nori};
 constexpr Vocabulary zaragoza = {.name = "zaragoza", .base = &nori};
 constexpr Vocabulary mcgill = {.name = "mcgill", .presets = mcgill_presets, .base = &nori};
 
-constexpr std::string_view lens_cameras[] = {"perspective", "thinlens", "perspective_dof", "perspective_depth"};
+constexpr std::string_view lens_cameras[] = {"perspective", "thinlens", "perspective_dof",
+                                             "perspective_depth"};
 
 } // namespace
 
@@ -87,8 +87,8 @@ std::string manual_of_other_name(const TypeName& type, std::string_view manual)
 Readings::Readings(const Dialect& dialect, const DialectWishes& wishes)
 {
     // What the command line says also replaces what the file says.
-    const auto add = [&](std::string_view kind, std::string_view type, std::string_view tag, std::string_view name,
-                         std::string value, bool replaces) {
+    const auto add = [&](std::string_view kind, std::string_view type, std::string_view tag,
+                         std::string_view name, std::string value, bool replaces) {
         texts_.push_back(std::move(value));
         presets_.push_back({kind, type, tag, name, texts_.back(), {}, replaces});
     };
@@ -108,7 +108,8 @@ Readings::Readings(const Dialect& dialect, const DialectWishes& wishes)
 Element arrange(Element root, const Dialect& dialect, const DialectWishes& wishes, Diagnostics& diagnostics)
 {
     const Readings readings(dialect, wishes);
-    return arrange(std::move(root), nori_vocabulary(dialect.name), {.overrides = readings.presets()}, diagnostics);
+    return arrange(std::move(root), nori_vocabulary(dialect.name), {.overrides = readings.presets()},
+                   diagnostics);
 }
 
 } // namespace plumb

@@ -45,11 +45,10 @@ ObjectReader::ObjectReader(const Element& element, LoadContext& context,
 {
     params_.set_lenient(context.lenient);
     if (context.vocabulary)
-        params_.set_wording({element.written_tag(), element.written_type(),
-                             [words = context.vocabulary, kind = kind_of(element),
-                              type = element.written_type()](std::string_view name) {
-                                 return written_parameter(*words, kind, type, name);
-                             }});
+        params_.set_wording(
+            {element.written_tag(), element.written_type(),
+             [words = context.vocabulary, kind = kind_of(element), type = element.written_type()](
+                 std::string_view name) { return written_parameter(*words, kind, type, name); }});
     if (element.tag == "test")
         check_attributes(element, {"type"}, {"dialect", "name", "id"}, context.diagnostics);
     else
@@ -79,7 +78,7 @@ bool ObjectReader::is_first(const Element& child, std::string_view name, const S
     if (is_new) return true;
     const bool same_file = first->second.file == child.file->path().string();
     context_.diagnostics.error(at, fmt::format("'{}' is given twice; first given at {} {}",
-                                                     params_.as_written(name),
+                                               params_.as_written(name),
                                                same_file ? "line" : first->second.file, first->second.line));
     return false;
 }
@@ -137,16 +136,19 @@ std::optional<std::string> ObjectReader::texture_name(const Element& child)
     if (names.size() == 1) return std::string(names.front());
     std::string choice;
     for (std::size_t i = 0; i < names.size(); ++i)
-        choice += fmt::format("{}name=\"{}\"", i == 0 ? "" : i + 1 == names.size() ? " or " : ", ",
+        choice += fmt::format("{}name=\"{}\"",
+                              i == 0                  ? ""
+                              : i + 1 == names.size() ? " or "
+                                                      : ", ",
                               params_.as_written(names[i]));
     if (!choice.empty())
         context_.diagnostics.error(
             child.place(), fmt::format("<{}> needs an attribute 'name', for {} '{}' takes several: {}",
                                        child.tag, element_.written_tag(), element_.written_type(), choice));
     else if (kind_of_type(type_) == kind_of(element_))
-        context_.diagnostics.error(child.place(),
-                                   fmt::format("{} '{}' takes no texture", element_.written_tag(),
-                                               element_.written_type()));
+        context_.diagnostics.error(
+            child.place(),
+            fmt::format("{} '{}' takes no texture", element_.written_tag(), element_.written_type()));
     return {};
 }
 
@@ -183,9 +185,8 @@ void ObjectReader::run(std::string_view class_name, const std::function<void()>&
         done = true;
     } catch (const FileError& error) {
         context_.diagnostics.error(error.location(), error.what());
-        context_.diagnostics.note(file_place(),
-                                  fmt::format("the file is read by {} '{}'", element_.written_tag(),
-                                              element_.written_type()));
+        context_.diagnostics.note(file_place(), fmt::format("the file is read by {} '{}'",
+                                                            element_.written_tag(), element_.written_type()));
     } catch (const Error& error) {
         if (!params_.missing_file()) context_.diagnostics.error(file_place(), error.what());
     } catch (const std::bad_alloc&) {

@@ -156,9 +156,9 @@ Vec3d srgb(const Vec3d& c) // [2]
 
 double value_at(std::span<const SpectrumPoint> spectrum, double wavelength)
 {
-    const auto after = std::lower_bound(
-        spectrum.begin(), spectrum.end(), wavelength,
-        [](const SpectrumPoint& point, double limit) { return point.wavelength < limit; });
+    const auto after =
+        std::lower_bound(spectrum.begin(), spectrum.end(), wavelength,
+                         [](const SpectrumPoint& point, double limit) { return point.wavelength < limit; });
     if (after == spectrum.end()) return 0.0;
     if (after->wavelength == wavelength) return after->value;
     if (after == spectrum.begin()) return 0.0;
@@ -181,9 +181,8 @@ Vec3d color_of_equal_energy()
 
 Vec3d color_under_d65(std::span<const SpectrumPoint> spectrum)
 {
-    return srgb(xyz([&](double wavelength) {
-        return value_at(spectrum, wavelength) * at(wavelength, 3) * d65_factor;
-    }));
+    return srgb(xyz(
+        [&](double wavelength) { return value_at(spectrum, wavelength) * at(wavelength, 3) * d65_factor; }));
 }
 
 Vec3d color_of_black_body(double temperature)

@@ -100,7 +100,8 @@ private:
         std::vector<std::string_view> known;
         for (const Vocabulary* from = &words_; from; from = from->base)
             for (const TagName& name : from->tags) known.push_back(name.theirs);
-        diagnostics_.error(child.place(), fmt::format("unknown tag <{}>{}", child.tag, way_out(child.tag, known)));
+        diagnostics_.error(child.place(),
+                           fmt::format("unknown tag <{}>{}", child.tag, way_out(child.tag, known)));
         return false;
     }
 
@@ -126,14 +127,16 @@ private:
         const SourceLocation at = element.value_place(*attribute);
         const auto is_it = [&](const auto& row) { return row.kind == kind && row.type == type; };
         if (const Refusal* refusal = find_row(words_, &Vocabulary::refusals, is_it))
-            return refuse(element, at,
-                          fmt::format("{} '{}' is not supported; {}", element.written_tag(), type, refusal->instead));
+            return refuse(
+                element, at,
+                fmt::format("{} '{}' is not supported; {}", element.written_tag(), type, refusal->instead));
         const auto* row = find_row(words_, &Vocabulary::types, [&](const TypeName& name) {
             return name.kind == kind && name.theirs == type;
         });
         if (row) {
             if (is_awaited(kind, row->ours, ""))
-                return refuse(element, at, fmt::format("{} '{}' is not supported yet", element.written_tag(), type));
+                return refuse(element, at,
+                              fmt::format("{} '{}' is not supported yet", element.written_tag(), type));
             if (!row->warning.empty()) diagnostics_.warning(at, std::string(row->warning));
             if (row->ours != type) rename_attribute_value(element, "type", row->ours);
             return Outcome::fine;
@@ -143,7 +146,8 @@ private:
         for (const Vocabulary* from = &words_; from; from = from->base)
             for (const TypeName& name : from->types)
                 if (name.kind == kind) known.push_back(name.theirs);
-        return refuse(element, at, fmt::format("unknown {} '{}'{}", element.written_tag(), type, way_out(type, known)));
+        return refuse(element, at,
+                      fmt::format("unknown {} '{}'{}", element.written_tag(), type, way_out(type, known)));
     }
 
     // type: ours.
@@ -184,10 +188,10 @@ private:
         for (const Vocabulary* from = &words_; from; from = from->base)
             for (const ParamName& param : from->params)
                 if (fits(param, kind, type)) known.push_back(param.theirs);
-        diagnostics_.add(options_.lenient ? Severity::warning : Severity::error, child.value_place(*attribute),
-                         fmt::format("unknown {} '{}' for {} '{}'{}",
-                                     child.tag == "texture" ? "texture" : "parameter", name, kind, type,
-                                     known.empty() ? "; it takes none" : way_out(name, known)));
+        diagnostics_.add(
+            options_.lenient ? Severity::warning : Severity::error, child.value_place(*attribute),
+            fmt::format("unknown {} '{}' for {} '{}'{}", child.tag == "texture" ? "texture" : "parameter",
+                        name, kind, type, known.empty() ? "; it takes none" : way_out(name, known)));
         return false;
     }
 
@@ -250,7 +254,8 @@ private:
 
 } // namespace
 
-Element arrange(Element root, const Vocabulary& words, const ArrangeOptions& options, Diagnostics& diagnostics)
+Element arrange(Element root, const Vocabulary& words, const ArrangeOptions& options,
+                Diagnostics& diagnostics)
 {
     Arranger(words, options, diagnostics).object(root);
     for (const Vocabulary* from = &words; from; from = from->base)

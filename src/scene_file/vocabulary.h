@@ -30,9 +30,9 @@ struct ParamName {
     Convert convert = nullptr; // of values; textures and references are renamed only
 };
 struct Preset {
-    std::string_view kind, type, tag, name, value;  // our parameter, unless the file gives it
-    std::string_view unless = {};                   // nor this one, in our words
-    bool replaces = false;                          // also where the file gives it
+    std::string_view kind, type, tag, name, value; // our parameter, unless the file gives it
+    std::string_view unless = {};                  // nor this one, in our words
+    bool replaces = false;                         // also where the file gives it
 };
 struct Refusal {
     std::string_view kind, type, instead;
@@ -69,12 +69,14 @@ struct Vocabulary {
 };
 
 struct ArrangeOptions {
-    std::span<const Preset> overrides = {}; // win over those of the vocabulary; of them, the first one that fits
-    bool lenient = false;                   // unknown parameters are warnings
+    std::span<const Preset> overrides =
+        {};               // win over those of the vocabulary; of them, the first one that fits
+    bool lenient = false; // unknown parameters are warnings
 };
 
 // The same tree in our own words. Places still point to the file; Element::written has the words of the file.
-Element arrange(Element root, const Vocabulary& words, const ArrangeOptions& options, Diagnostics& diagnostics);
+Element arrange(Element root, const Vocabulary& words, const ArrangeOptions& options,
+                Diagnostics& diagnostics);
 
 // The file's name of one of our parameters.
 std::string_view written_parameter(const Vocabulary& words, std::string_view kind, std::string_view type,
@@ -87,7 +89,8 @@ Attribute* find_attribute(Element& element, std::string_view name);
 // Gives the attribute a value that does not stand in the file.
 void set_attribute(Element& element, std::string_view name, std::string value);
 // A parameter that no file contains, with the place of the element `at`.
-Element made_parameter(const Element& at, std::string_view tag, std::string_view name, std::string_view value);
+Element made_parameter(const Element& at, std::string_view tag, std::string_view name,
+                       std::string_view value);
 Element made_object(const Element& at, std::string_view tag, std::string_view type);
 // Keeps what the file says, before it is replaced.
 void rename_tag(Element& element, std::string_view ours);

@@ -3,9 +3,9 @@
 
 #include "scene_file/build.h"
 #include "scene_file/dialects.h"
-#include "scene_file/nori_words.h"
 #include "scene_file/expand.h"
 #include "scene_file/file_order.h"
+#include "scene_file/nori_words.h"
 #include "scene_file/property_values.h"
 #include "scene_file/shared_objects.h"
 
@@ -280,8 +280,7 @@ private:
 
     void make_sampler()
     {
-        const Params params("sampler", "independent", root_.place(), diagnostics_,
-                            root_.file->directory());
+        const Params params("sampler", "independent", root_.place(), diagnostics_, root_.file->directory());
         for (const Entry<Sampler>& entry : sampler_types())
             if (entry.name == "independent") test_.sampler = entry.build(params);
     }

@@ -2,12 +2,12 @@
 
 // Small scenes of Mitsuba, with what Mitsuba renders of them (tests/mitsuba).
 
+#include "build_paths.h"
 #include "plumb/base/error.h"
 #include "plumb/image/image.h"
 #include "plumb/render/render.h"
 #include "plumb/scene_file/scene_file.h"
 #include "support/catch.h"
-#include "build_paths.h"
 
 #include <cmath>
 #include <fstream>
@@ -65,9 +65,11 @@ std::string difference(const LoadedScene& scene, const Case& expected, std::uint
     constexpr int images = 16;
     const Vec2i resolution = scene.job.camera->resolution();
     if (resolution != Vec2i(expected.width, expected.height))
-        return "the image has " + std::to_string(resolution.x) + " x " + std::to_string(resolution.y) + " pixels";
+        return "the image has " + std::to_string(resolution.x) + " x " + std::to_string(resolution.y) +
+               " pixels";
     const int channels = expected.channels == 1 ? 1 : 3; // the first three of an image with AOVs or alpha
-    std::vector<double> sum(static_cast<std::size_t>(resolution.x * resolution.y * channels)), squares(sum.size());
+    std::vector<double> sum(static_cast<std::size_t>(resolution.x * resolution.y * channels)),
+        squares(sum.size());
     for (int i = 0; i < images; ++i) {
         RenderOptions options;
         options.samples_per_pixel = samples;
@@ -85,7 +87,8 @@ std::string difference(const LoadedScene& scene, const Case& expected, std::uint
             }
     }
     for (std::size_t k = 0; k < sum.size(); ++k) {
-        const std::size_t pixel = k / static_cast<std::size_t>(channels), c = k % static_cast<std::size_t>(channels);
+        const std::size_t pixel = k / static_cast<std::size_t>(channels),
+                          c = k % static_cast<std::size_t>(channels);
         const double wanted = expected.pixels[pixel * static_cast<std::size_t>(expected.channels) + c];
         const double mean = sum[k] / images;
         const double variance = std::max(0.0, squares[k] / images - mean * mean) / (images - 1);

@@ -16,8 +16,10 @@ namespace {
 
 ParamsBuilder camera_params()
 {
-    return std::move(
-        ParamsBuilder("camera", "perspective").integer("width", 200).integer("height", 100).number("fov", 60.0));
+    return std::move(ParamsBuilder("camera", "perspective")
+                         .integer("width", 200)
+                         .integer("height", 100)
+                         .number("fov", 60.0));
 }
 
 std::unique_ptr<Camera> make(const ParamsBuilder& params)

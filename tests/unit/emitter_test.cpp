@@ -57,7 +57,8 @@ TEST_CASE("light of point and directional emitters arrives in its closed form", 
     CHECK(sun->power() == Approx(7.0 * pi_d * 100.0).epsilon(1e-5));
 }
 
-TEST_CASE("the direction of directional light is where it goes, unless it points to the light", "[unit][emitter]")
+TEST_CASE("the direction of directional light is where it goes, unless it points to the light",
+          "[unit][emitter]")
 {
     const bool points_to_light = GENERATE(false, true);
     const auto sun = ParamsBuilder("emitter", "directional")

@@ -37,8 +37,8 @@ TEST_CASE("a scene of Mitsuba without a version gets one error", "[unit][foreign
   <sensor type="perspective"><film type="hdrfilm"><integer name="width" value="16"/></film></sensor>
   <shape type="obj"><bsdf type="diffuse"><rgb name="reflectance" value="0.5"/></bsdf></shape>
 </scene>)";
-    CHECK(complaint("<scene>" + inner) ==
-          "a.xml:2:3: error: this is a scene of Mitsuba, but its root has no version: <scene version=\"3.0.0\">\n");
+    CHECK(complaint("<scene>" + inner) == "a.xml:2:3: error: this is a scene of Mitsuba, but its root has no "
+                                          "version: <scene version=\"3.0.0\">\n");
     // One of ours with a slip is no scene of Mitsuba.
     CHECK_THAT(complaint("<scene dialect='plumb'>" + inner),
                ContainsSubstring("error: <sensor> is <camera> here\n"));
@@ -52,10 +52,12 @@ TEST_CASE("a scene of Mitsuba that one of ours includes gets one error", "[unit]
     const TempDirectory directory;
     directory.write("m.xml", "<scene version='2.1.0'><sensor type='perspective'/><rgb/></scene>");
     const auto main = directory.write("a.xml", test::start + "<include filename='m.xml'/></scene>");
-    CHECK_THROWS_WITH(load_scene(main),
-                      ContainsSubstring("m.xml:1:8: error: this is a scene of Mitsuba 2.1.0, which one of Plumb's own scenes "
-                                        "cannot include\n") &&
-                          !ContainsSubstring("<rgb> is"));
+    CHECK_THROWS_WITH(
+        load_scene(main),
+        ContainsSubstring(
+            "m.xml:1:8: error: this is a scene of Mitsuba 2.1.0, which one of Plumb's own scenes "
+            "cannot include\n") &&
+            !ContainsSubstring("<rgb> is"));
 }
 
 TEST_CASE("files that are no scenes are named", "[unit][foreign_files]")

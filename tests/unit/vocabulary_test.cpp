@@ -62,9 +62,11 @@ bool has_type(std::string_view kind, std::string_view type)
 }
 
 // Whether any of the types has it, where the row is for all.
-bool has_parameter(const Vocabulary& words, std::string_view kind, std::string_view theirs, std::string_view name)
+bool has_parameter(const Vocabulary& words, std::string_view kind, std::string_view theirs,
+                   std::string_view name)
 {
-    const std::string_view plugin_kind = kind == "film" ? "camera" : kind; // whose parameters become the camera's
+    const std::string_view plugin_kind =
+        kind == "film" ? "camera" : kind; // whose parameters become the camera's
     for (const Vocabulary* from = &words; from; from = from->base)
         for (const TypeName& type : from->types)
             if (type.kind == plugin_kind && (theirs.empty() || kind == "film" || type.theirs == theirs)) {
@@ -78,7 +80,8 @@ bool has_parameter(const Vocabulary& words, std::string_view kind, std::string_v
 bool is_awaited(const Vocabulary& words, std::string_view kind, std::string_view type, std::string_view name)
 {
     return std::any_of(words.awaited.begin(), words.awaited.end(), [&](const Awaited& row) {
-        return row.kind == kind && (row.type == type || type.empty()) && (row.parameter.empty() || row.parameter == name);
+        return row.kind == kind && (row.type == type || type.empty()) &&
+               (row.parameter.empty() || row.parameter == name);
     });
 }
 
@@ -93,10 +96,12 @@ TEST_CASE("what the rows of a dialect name is in the catalog", "[unit][vocabular
             CAPTURE(words->name);
             for (const TypeName& row : words->types) {
                 CAPTURE(row.kind, row.theirs, row.ours);
-                if (row.kind == "film" || row.ours == "moment" || row.ours == "aov") continue; // order_mitsuba()
+                if (row.kind == "film" || row.ours == "moment" || row.ours == "aov")
+                    continue; // order_mitsuba()
                 CHECK((has_type(row.kind, row.ours) || is_awaited(*top, row.kind, row.ours, "")));
             }
-            const auto check_parameter = [&](std::string_view kind, std::string_view type, std::string_view name) {
+            const auto check_parameter = [&](std::string_view kind, std::string_view type,
+                                             std::string_view name) {
                 CAPTURE(kind, type, name);
                 CHECK((has_parameter(*top, kind, type, name) ||
                        is_awaited(*top, kind, type.empty() ? type : our_type(*top, kind, type), name)));
@@ -109,7 +114,8 @@ TEST_CASE("what the rows of a dialect name is in the catalog", "[unit][vocabular
     for (const Awaited& row : mitsuba3().awaited) {
         CAPTURE(row.kind, row.type, row.parameter);
         if (row.parameter.empty()) {
-            CHECK((!has_type(row.kind, row.type) || row.type == "roughconductor" || row.type == "roughdielectric"));
+            CHECK((!has_type(row.kind, row.type) || row.type == "roughconductor" ||
+                   row.type == "roughdielectric"));
         } else {
             const auto names = row.kind == "film" ? parameters_of("camera", "perspective")
                                                   : parameters_of(row.kind, row.type);
@@ -179,12 +185,13 @@ TEST_CASE("other names of our types", "[unit][vocabulary]")
     };
     const std::string lens = "<camera type='perspective'><float name='lensRadius' value='2'/>"
                              "<float name='focalDistance' value='3'/></camera>";
-    CHECK(camera("thinlens", "<float name='lensRadius' value='2'/><float name='focalLength' value='3'/>") == lens);
-    CHECK(camera("perspective_dof", "<float name='lensRadius' value='2'/><float name='focalDistance' value='3'/>") ==
+    CHECK(camera("thinlens", "<float name='lensRadius' value='2'/><float name='focalLength' value='3'/>") ==
           lens);
-    CHECK(camera("perspective_depth", "<float name='apertureradius' value='2'/>"
-                                      "<float name='focaldistance' value='3'/><float name='focallength' value='1'/>") ==
-          lens);
+    CHECK(camera("perspective_dof",
+                 "<float name='lensRadius' value='2'/><float name='focalDistance' value='3'/>") == lens);
+    CHECK(camera("perspective_depth",
+                 "<float name='apertureradius' value='2'/>"
+                 "<float name='focaldistance' value='3'/><float name='focallength' value='1'/>") == lens);
     CHECK(camera("thinlens", "<float name='lensRadius' value='2'/>") ==
           "<camera type='perspective'><float name='lensRadius' value='0'/></camera>");
     CHECK(arranged("<emitter type='pointlight'/>", DialectName::mcgill) ==
