@@ -13,6 +13,7 @@ namespace plumb {
 ///     height         integer     pixels down, from 1 to 65535   (default 720)
 ///     viewWidth      float       width of what is seen, greater than 0; its height follows from the pixels   (default 2)
 ///     toWorld        transform   camera space to world space   (default identity)
+///     mirrored       boolean     the image is flopped, left to right; the dialect eth sets it   (default false)
 ///     nearClip       float       nothing nearer to the camera's plane is seen, if given; in the world, whatever toWorld scales
 ///     farClip        float       nothing farther from it is seen, if given
 ///     cropOffsetX    integer     only a part of the picture is rendered: its first column   (default 0)
@@ -35,7 +36,7 @@ public:
         pixel_size_ = width / film_.full.x;
         half_width_ = 0.5 * width;
         half_height_ = 0.5 * pixel_size_ * film_.full.y;
-        if (params.dialect().mirrored_view) mirror_ = -1.0;
+        if (params.boolean("mirrored", false)) mirror_ = -1.0;
         const Vec3d forward = to_world_.vector(Vec3d(0.0, 0.0, 1.0));
         direction_ = Vec3f(normalize(forward));
         double near = 0.0, far = infinity;

@@ -7,28 +7,8 @@
 #include "plumb/sampling/sampling.h"
 
 namespace plumb {
-namespace {
-
-// The course forks spell depth of field differently (scene grammar, section 3): the camera's radius of lens and
-// distance of sharp focus under the names of its type.
-struct LensNames {
-    const char* radius;
-    float default_radius;
-    const char* focus;
-};
-
-LensNames lens_names(const std::string& type)
-{
-    if (type == "thinlens") return {"lensRadius", 0.f, "focalLength"};
-    if (type == "perspective_depth") return {"apertureradius", 0.2f, "focaldistance"};
-    return {"lensRadius", 0.f, "focalDistance"};
-}
-
-} // namespace
-
 /// A pinhole or thin-lens camera. Camera space: +z looks forward, +y is up, +x is left. With a lens, points at the
-/// focal distance along +z are sharp. `thinlens`, `perspective_dof` and `perspective_depth` are the same camera
-/// under the names that some courses' students gave it and its parameters.
+/// focal distance along +z are sharp.
 ///
 ///     width           integer     pixels across, from 1 to 65535   (default 1280)
 ///     height          integer     pixels down, from 1 to 65535   (default 720)
@@ -44,15 +24,12 @@ LensNames lens_names(const std::string& type)
 ///     farClip         float       nothing farther along +z is seen, if given
 ///     lensRadius      float       radius of the lens, at least 0; 0 is a pinhole   (default 0)
 ///     focalDistance   float       distance of sharp focus along +z, greater than 0   (default 1)
-///     focalLength     float       thinlens's name of focalDistance (there, 0 is the default and means a pinhole)
-///     apertureradius  float       perspective_depth's name of lensRadius   (default 0.2)
-///     focaldistance   float       perspective_depth's name of focalDistance (there, required)
-///     focallength     float       perspective_depth only; ignored
 ///     cropOffsetX     integer     only a part of the picture is rendered: its first column   (default 0)
 ///     cropOffsetY     integer     its first row   (default 0)
 ///     cropWidth       integer     its width   (default: up to the right edge)
 ///     cropHeight      integer     its height   (default: down to the lower edge)
 ///     sampleBorder    boolean     filters reach beyond the edge of the picture; else they are cut there   (default true)
+///     mirrored        boolean     the image is flopped, left to right; the dialect eth sets it   (default false)
 ///
 ///         <camera type="perspective">
 ///             <float name="fov" value="40"/>
@@ -69,7 +46,7 @@ public:
         const FieldOfView view = read_field_of_view(params, film_.full);
         half_width_ = view.half_width;
         half_height_ = view.half_height;
-        if (params.dialect().mirrored_view) half_width_ = -half_width_;
+        if (params.boolean("mirrored", false)) half_width_ = -half_width_;
         pixel_width_ = 2.0 * half_width_ / film_.full.x;
         pixel_height_ = 2.0 * half_height_ / film_.full.y;
         // A principal point is a shift of all pixels, like a crop.
@@ -121,17 +98,10 @@ private:
 
     void read_lens(const Params& params)
     {
-        const LensNames names = lens_names(params.type());
-        lens_radius_ = params.number(names.radius, names.default_radius, Range::at_least(0.0));
-        if (params.type() == "perspective_depth") params.ignore("focallength");
-        const float default_focus =
-            params.type() == "thinlens" || params.type() == "perspective_depth" ? 0.f : 1.f;
-        focal_distance_ = params.number(names.focus, default_focus, Range::at_least(0.0));
-        if (focal_distance_ > 0.0 || lens_radius_ == 0.0) return;
-        if (params.type() == "thinlens" && !params.has(names.focus))
-            lens_radius_ = 0.0;
-        else
-            params.fail(names.focus, "must be greater than 0 where the lens has a radius");
+        lens_radius_ = params.number("lensRadius", 0.f, Range::at_least(0.0));
+        focal_distance_ = params.number("focalDistance", 1.f, Range::at_least(0.0));
+        if (!(focal_distance_ > 0.0) && lens_radius_ > 0.0)
+            params.fail("focalDistance", "must be greater than 0 where the lens has a radius");
     }
 
     FilmWindow film_;

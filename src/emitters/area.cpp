@@ -15,7 +15,7 @@ namespace plumb {
 /// or shape that emits.
 ///
 ///     radiance   color or texture   in W / (m^2 sr), at least 0; negative values of a texture count as 0
-///                                   (default 1; mcgill dialect: 0)
+///                                   (default 1)
 ///     scale      float              multiplies radiance           (default 1)
 ///
 ///         <shape type="sphere">
@@ -79,7 +79,7 @@ public:
 private:
     static std::shared_ptr<const Texture> read_radiance(const Params& params)
     {
-        const Color fallback(params.dialect().name == DialectName::mcgill ? 0.f : 1.f);
+        const Color fallback(1.f);
         const auto texture = params.texture("radiance", fallback, Range::any());
         if (!(texture->min_value() < 0.f)) return texture;
         // A colour that someone has written is a mistake; images often have a few such pixels.

@@ -12,11 +12,11 @@ namespace plumb {
 /// `radiance` is the irradiance on a surface that faces the light: a diffuse surface of albedo a that faces it shows
 /// a radiance of a / pi times it.
 ///
-/// `direction` is where the light goes, as in Mitsuba and in most forks of Nori: a sun above has a negative y. In the
-/// mcgill dialect it points the other way, towards the light.
+/// `direction` is where the light goes, as in Mitsuba and in most forks of Nori: a sun above has a negative y.
 ///
-///     direction   vector   where the light goes, any length but 0; mcgill: where it comes from   (required)
-///     radiance    color    irradiance perpendicular to the direction, in W / m^2          (default 1)
+///     direction        vector    where the light goes, any length but 0   (required)
+///     radiance         color     irradiance perpendicular to the direction, in W / m^2   (default 1)
+///     pointsToLight    boolean   direction points the other way, towards the light   (default false)
 ///
 ///         <emitter type="directional">
 ///             <vector name="direction" value="-1 -2 -0.5"/>
@@ -27,7 +27,7 @@ public:
     explicit DirectionalEmitter(const Params& params) : irradiance_(params.color("radiance", Color(1.f)))
     {
         const Vec3f direction = params.vector("direction", Vec3f(0.f));
-        const bool points_to_light = params.dialect().sun_points_to_light;
+        const bool points_to_light = params.boolean("pointsToLight", false);
         if (max_component(abs(direction)) > 0.f)
             towards_light_ = normalize(points_to_light ? direction : -direction);
         else

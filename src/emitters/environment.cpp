@@ -18,9 +18,9 @@ namespace plumb {
 /// The y axis points up. With phi = atan2(z, x) in [0, 2 pi) and theta = acos(y), a direction sees column
 /// phi / (2 pi) width and row theta / pi height of the image, whose first row is around +y; pixels are squares with
 /// their value in the middle, interpolated bilinearly; columns repeat, and beyond the first and last row, at the poles,
-/// those rows repeat. In the Zaragoza dialect both run the other way: column (1 - phi / (2 pi)) width and row
-/// (1 - theta / pi) height, values in the pixels' upper left corners, rows repeat, and values are divided by 255
-/// (--envmap-scale). The parameter `rotate` is accepted and ignored, as in the course.
+/// those rows repeat. If `flipped`, both run the other way: column (1 - phi / (2 pi)) width and row
+/// (1 - theta / pi) height, values in the pixels' upper left corners, and rows repeat. The parameter `rotate` is
+/// accepted and ignored, as in the course.
 ///
 /// Directions are chosen in proportion to the luminance that they show.
 ///
@@ -33,6 +33,8 @@ namespace plumb {
 ///                                seam at -z, as Mitsuba does   (default 0)
 ///     rowsAtPoles    boolean     row theta / pi (height - 1): the first and the last row are the poles, as Mitsuba has
 ///                                it   (default false)
+///     imageScale   float     multiplies the image alone; the dialect zaragoza and --envmap-scale set it   (default 1)
+///     flipped      boolean   see above; the dialect zaragoza sets it   (default false)
 ///
 /// For example:
 ///
@@ -43,13 +45,13 @@ namespace plumb {
 class EnvironmentEmitter final : public Emitter {
 public:
     explicit EnvironmentEmitter(const Params& p)
-        : flipped_(p.dialect().environment_flipped),
+        : flipped_(p.boolean("flipped", false)),
           rows_at_poles_(p.boolean("rowsAtPoles", false)),
           constant_(p.color("radiance", Color(1.f)) * p.number("scale", 1.f, Range::at_least(0.0)))
     {
         if (flipped_ && rows_at_poles_)
             p.fail("rowsAtPoles",
-                   "cannot be true in the dialect zaragoza, which reads images in its own way");
+                   "cannot be true together with flipped");
         const double offset = p.number("columnOffset", 0.f);
         column_offset_ = offset - std::floor(offset);
         to_world_ = p.transform("toWorld");
@@ -58,6 +60,7 @@ public:
         if (!to_world_.uniform_scale())
             p.fail("toWorld",
                    "stretches the directions of the environment unevenly; it may turn and mirror them");
+        const float image_scale = p.number("imageScale", 1.f);
         p.ignore(
             "rotate",
             "'rotate' of an environment is ignored, as in the course's renderer: the image is not rotated");
@@ -65,8 +68,7 @@ public:
             integral_ = 2.0 * two_pi_ * luminance(constant_);
             return;
         }
-        bitmap_ =
-            std::make_unique<Bitmap>(p.file("filename"), true, constant_ * p.dialect().environment_scale);
+        bitmap_ = std::make_unique<Bitmap>(p.file("filename"), true, constant_ * image_scale);
         if (bitmap_->min_value() < 0.f) {
             p.warn("filename", "the image has negative values, which are clamped to 0");
             bitmap_->clamp_negative();

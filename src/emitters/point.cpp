@@ -5,25 +5,22 @@
 
 namespace plumb {
 
-/// A light at a point, the same in all directions, written `pointlight` or `point`.
+/// A light at a point, the same in all directions.
 ///
 /// Give `radiance`, which is the intensity I: radiance I / d^2 arrives at distance d; or `power`: I = power / (4 pi).
-/// With neither, `pointlight` has a radiance of 1, and `point` what its dialect expects: radiance 0 (mcgill),
-/// power 1 (eth), else radiance 1.
 ///
-///     position   point   where it stands              (default 0 100 0 for pointlight, 0 0 0 for point)
-///     radiance   color   intensity in W / sr          (default 1, see above)
+///     position   point   where it stands              (default 0 0 0)
+///     radiance   color   intensity in W / sr          (default 1)
 ///     power      color   emitted power in W           (default: from radiance)
 ///
-///         <emitter type="pointlight">
+///         <emitter type="point">
 ///             <point name="position" value="0 3 0"/>
 ///             <color name="radiance" value="20 20 20"/>
 ///         </emitter>
 class PointEmitter final : public Emitter {
 public:
     explicit PointEmitter(const Params& params)
-        : position_(params.point("position", Vec3f(0.f, params.type() == "pointlight" ? 100.f : 0.f, 0.f))),
-          intensity_(read_intensity(params))
+        : position_(params.point("position", Vec3f(0.f))), intensity_(read_intensity(params))
     {}
 
     std::optional<EmitterSample> sample(const LightReceiver& receiver, double /*u_select*/,
@@ -64,17 +61,14 @@ public:
 private:
     static Color read_intensity(const Params& params)
     {
-        const bool is_point = params.type() == "point";
-        const float default_value = is_point && params.dialect().name == DialectName::mcgill ? 0.f : 1.f;
         const bool has_radiance = params.has("radiance");
         const bool has_power = params.has("power");
-        const Color radiance = params.color("radiance", Color(default_value));
-        const Color power = params.color("power", Color(default_value));
+        const Color radiance = params.color("radiance", Color(1.f));
+        const Color power = params.color("power", Color(1.f));
         if (has_radiance && has_power)
             params.fail("power",
                         "and radiance were both given: power is 4 pi times radiance, so keep one of them");
-        const bool by_power = has_power || (!has_radiance && is_point && params.dialect().point_takes_power);
-        return by_power ? power / (4.f * pi) : radiance;
+        return has_power ? power / (4.f * pi) : radiance;
     }
 
     Vec3f position_;

@@ -8,8 +8,7 @@ namespace plumb {
 /// All light, by paths with next-event estimation: one sample of one emitter at each surface.
 ///
 /// Emitters are chosen by what they are expected to send to the surface. What the path itself meets counts only where
-/// no emitter sample could have found it: at the first hit, and after a delta bounce (mirror, smooth glass). Also
-/// called path_ems.
+/// no emitter sample could have found it: at the first hit, and after a delta bounce (mirror, smooth glass).
 ///
 ///     maxDepth   integer   surface bounces: 0 shows emitters only, 1 direct light, -1 everything   (default -1)
 ///     rrDepth    integer   bounces before Russian roulette starts   (default 3)

@@ -11,6 +11,7 @@ std::string_view to_string(DialectName name)
     case DialectName::eth: return "eth";
     case DialectName::zaragoza: return "zaragoza";
     case DialectName::mcgill: return "mcgill";
+    case DialectName::mitsuba3: return "mitsuba3";
     }
     return {};
 }
@@ -28,7 +29,8 @@ Dialect Dialect::standard(DialectName name)
     dialect.name = name;
     switch (name) {
     case DialectName::plumb:
-    case DialectName::epfl: break;
+    case DialectName::epfl:
+    case DialectName::mitsuba3: break;
     case DialectName::eth:
         dialect.mirrored_view = true;
         dialect.point_takes_power = true;

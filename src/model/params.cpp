@@ -54,18 +54,27 @@ std::string Range::text() const
 }
 
 Params::Params(std::string kind, std::string type, SourceLocation element_at, Diagnostics& diagnostics,
-               const Dialect& dialect, std::filesystem::path directory)
+               std::filesystem::path directory)
     : kind_(std::move(kind)),
       type_(std::move(type)),
       element_at_(std::move(element_at)),
       diagnostics_(diagnostics),
-      dialect_(dialect),
       directory_(std::move(directory))
 {}
 
 void Params::add(std::string name, Property property)
 {
     properties_.insert_or_assign(std::move(name), std::move(property));
+}
+
+void Params::set_wording(Wording wording)
+{
+    wording_ = std::move(wording);
+}
+
+std::string_view Params::as_written(std::string_view name) const
+{
+    return wording_ && wording_->parameter ? wording_->parameter(name) : name;
 }
 
 // --- Finding ------------------------------------------------------------------------------------------------
@@ -97,8 +106,8 @@ bool Params::has(std::string_view name) const
 void Params::fail_missing(std::string_view name, std::string_view tag) const
 {
     diagnostics_.error(element_at_,
-                       fmt::format("{} '{}' needs a parameter '{}': <{} name=\"{}\" value=\"{}\"/>", kind_,
-                                   type_, name, tag, name, sample_value(tag)));
+                       fmt::format("{0} '{1}' needs a parameter '{2}': <{3} name=\"{2}\" value=\"{4}\"/>",
+                                   written_kind(), written_type(), as_written(name), tag, sample_value(tag)));
 }
 
 // --- Reading ------------------------------------------------------------------------------------------------
@@ -247,7 +256,7 @@ const SourceLocation& Params::value_place(std::string_view name) const
 
 void Params::fail(std::string_view name, std::string message) const
 {
-    diagnostics_.error(value_place(name), fmt::format("{} {}", name, message));
+    diagnostics_.error(value_place(name), fmt::format("{} {}", as_written(name), message));
 }
 
 void Params::warn(std::string_view name, std::string message) const
@@ -271,11 +280,14 @@ bool Params::is_unused(std::string_view name) const
 
 void Params::reject_unused() const
 {
-    const std::vector<std::string_view> known(asked_.begin(), asked_.end());
+    std::vector<std::string_view> known;
+    for (const std::string& name : asked_) known.push_back(as_written(name));
     const auto reject = [&](std::string_view what, std::string_view name, const SourceLocation& at) {
-        const std::string rest = known.empty() ? "; it takes none" : way_out(name, known);
+        const std::string rest =
+            known.empty() ? "; it takes none" : way_out(std::string(as_written(name)), known);
         diagnostics_.add(lenient_ ? Severity::warning : Severity::error, at,
-                         fmt::format("unknown {} '{}' for {} '{}'{}", what, name, kind_, type_, rest));
+                         fmt::format("unknown {} '{}' for {} '{}'{}", what, as_written(name), written_kind(),
+                                     written_type(), rest));
     };
     for (const auto& [name, property] : properties_)
         if (!property.asked) reject("parameter", name, property.name_at);

@@ -30,8 +30,9 @@ std::shared_ptr<const Bsdf> Params::bsdf(std::size_t i) const
         bsdfs_[i].asked = true;
         if (bsdfs_[i].bsdf) return bsdfs_[i].bsdf;
     } else {
-        diagnostics_.error(element_at_, fmt::format("{} '{}' needs {} inside it: <bsdf type=\"diffuse\"/>",
-                                                    kind_, type_, i == 0 ? "a <bsdf>" : "one more <bsdf>"));
+        diagnostics_.error(element_at_,
+                           fmt::format("{} '{}' needs {} inside it: <bsdf type=\"diffuse\"/>", written_kind(),
+                                       written_type(), i == 0 ? "a <bsdf>" : "one more <bsdf>"));
     }
     return std::make_shared<BlackBsdf>();
 }
@@ -51,7 +52,7 @@ void Params::reject_unused_bsdfs() const
     for (const BsdfChild& child : bsdfs_)
         if (!child.asked)
             diagnostics_.add(lenient_ ? Severity::warning : Severity::error, child.at,
-                             fmt::format("{} '{}' takes {}", kind_, type_, takes));
+                             fmt::format("{} '{}' takes {}", written_kind(), written_type(), takes));
 }
 
 } // namespace plumb

@@ -49,13 +49,14 @@ std::shared_ptr<const Texture> Params::texture_child(std::string_view name, cons
     const TextureChild* child = find_texture(name);
     if (!child) return nullptr;
     if (find(name)) {
-        diagnostics_.error(child->at, fmt::format("{} is given twice, as a value and as a texture", name));
+        diagnostics_.error(child->at,
+                           fmt::format("{} is given twice, as a value and as a texture", as_written(name)));
         return nullptr;
     }
     if (!child->texture) return nullptr;
     if (const auto outside = value_outside(*child->texture, range)) {
         diagnostics_.error(child->at, fmt::format("{} must be {} everywhere, but the texture reaches {}",
-                                                  name, range.text(), *outside));
+                                                  as_written(name), range.text(), *outside));
         return nullptr;
     }
     return child->texture;

@@ -6,6 +6,7 @@
 #include "scene_file/build_child.h"
 #include "scene_file/foreign_names.h"
 #include "scene_file/groups.h"
+#include "scene_file/nori_words.h"
 #include "scene_file/placement.h"
 #include "scene_file/property_values.h"
 #include "scene_file/shared_objects.h"
@@ -172,10 +173,10 @@ private:
         if (options_.integrator && !check_option("integrator", *options_.integrator, integrator_types()))
             return;
         const Element element =
-            options_.integrator ? synthetic_element(root_, "integrator", *options_.integrator) : *integrator_;
+            options_.integrator ? chosen_element(root_, "integrator", *options_.integrator) : *integrator_;
         ObjectReader reader(element, context_);
         parts_.integrator = reader.build(integrator_types());
-        parts_.integrator_type = reader.type();
+        parts_.integrator_type = element.written_type();
         if (!options_.integrator) parts_.integrator_at = element.place();
     }
 
@@ -195,7 +196,16 @@ private:
         if (options_.samples_per_pixel)
             reader.params().add("sampleCount", integer_property(*options_.samples_per_pixel));
         parts_.sampler = reader.build(sampler_types());
-        parts_.sampler_type = reader.type();
+        parts_.sampler_type = element.written_type();
+    }
+
+    // Of a type that the command line names, in the words of any course.
+    static Element chosen_element(const Element& at, const std::string& tag, const std::string& type)
+    {
+        Element element = synthetic_element(at, tag, type);
+        const std::string_view ours = our_type(nori_vocabulary(DialectName::plumb), tag, type);
+        if (ours != type) rename_attribute_value(element, "type", ours);
+        return element;
     }
 
     template <class Kind>
@@ -203,7 +213,8 @@ private:
     {
         std::vector<std::string_view> names;
         for (const Entry<Kind>& entry : entries) names.push_back(entry.name);
-        if (std::find(names.begin(), names.end(), type) != names.end()) return true;
+        const std::string_view ours = our_type(nori_vocabulary(DialectName::plumb), option, type);
+        if (std::find(names.begin(), names.end(), ours) != names.end()) return true;
         const auto foreign = foreign_type(option, type);
         diagnostics_.error(
             {}, fmt::format("--{} {}: {}", option, type,

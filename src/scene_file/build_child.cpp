@@ -15,7 +15,8 @@ namespace {
 class ChildBuilder {
 public:
     ChildBuilder(const Element& element, const LoadContext& scene)
-        : element_(element), context_{built_.diagnostics, scene.dialect, scene.lenient, {}, 0, scene.shared}
+        : element_(element),
+          context_{built_.diagnostics, scene.dialect, scene.lenient, {}, 0, scene.shared, 0, scene.vocabulary}
     {}
 
     BuiltChild build()
@@ -43,22 +44,22 @@ private:
         object.shape = reader.build(shape_types());
         object.bsdf = bsdf ? build_bsdf(*bsdf, context_) : default_bsdf();
         if (emitter) object.emitter = build_area_light(*emitter, object.shape.get());
-        object.name = place_name(element_, element_.tag, reader.type());
+        object.name = place_name(element_);
         object.material = material_name(bsdf);
     }
 
-    static std::string place_name(const Element& element, std::string_view tag, std::string_view type)
+    static std::string place_name(const Element& element)
     {
         const SourceLocation at = element.place();
-        return fmt::format("{} '{}' ({}:{})", tag, type, std::filesystem::path(at.file).filename().string(),
-                           at.line);
+        return fmt::format("{} '{}' ({}:{})", element.written_tag(), element.written_type(),
+                           std::filesystem::path(at.file).filename().string(), at.line);
     }
 
     std::string material_name(const Element* bsdf) const
     {
         if (!bsdf) return "bsdf 'diffuse' (default)";
         const std::string id = bsdf->value("id"); // its own, or that of a <ref>
-        return id.empty() ? place_name(*bsdf, bsdf->tag, bsdf->value("type")) : id;
+        return id.empty() ? place_name(*bsdf) : id;
     }
 
     std::unique_ptr<Bsdf> default_bsdf()

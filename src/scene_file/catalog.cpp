@@ -3,8 +3,10 @@
 
 #include "plumb/scene_file/scene_file.h"
 #include "scene_file/manual.h"
+#include "scene_file/nori_words.h"
 
 #include <algorithm>
+#include <list>
 
 namespace plumb {
 
@@ -64,7 +66,6 @@ constexpr Entry<Texture> textures[] = {
 
 constexpr Entry<Emitter> emitters[] = {
     {"area", build<class AreaEmitter>, "AreaEmitter"},
-    {"pointlight", build<class PointEmitter>, "PointEmitter"},
     {"point", build<class PointEmitter>, "PointEmitter"},
     {"directional", build<class DirectionalEmitter>, "DirectionalEmitter"},
     {"environment", build<class EnvironmentEmitter>, "EnvironmentEmitter"},
@@ -74,9 +75,6 @@ constexpr Entry<Emitter> emitters[] = {
 
 constexpr Entry<Camera> cameras[] = {
     {"perspective", build<class PerspectiveCamera>, "PerspectiveCamera"},
-    {"thinlens", build<class PerspectiveCamera>, "PerspectiveCamera"},
-    {"perspective_dof", build<class PerspectiveCamera>, "PerspectiveCamera"},
-    {"perspective_depth", build<class PerspectiveCamera>, "PerspectiveCamera"},
     {"orthographic", build<class OrthographicCamera>, "OrthographicCamera"},
 };
 
@@ -99,7 +97,6 @@ constexpr Entry<Integrator> integrators[] = {
     {"path", build<class Path>, "Path"},
     {"path_mats", build<class PathMats>, "PathMats"},
     {"path_nee", build<class PathNee>, "PathNee"},
-    {"path_ems", build<class PathNee>, "PathNee"},
     {"path_mis", build<class PathMis>, "PathMis"},
     {"direct", build<class Direct>, "Direct"},
     {"direct_ems", build<class DirectEms>, "DirectEms"},
@@ -131,11 +128,23 @@ constexpr IgnoredParameter ignored_parameters[] = {
     {"sampler", "independent", "iteration", "", ""},
 };
 
+// Texts for views; called while known_types() is made, once.
+std::string_view kept_text(std::string text)
+{
+    static std::list<std::string> texts;
+    return texts.emplace_back(std::move(text));
+}
+
 template <class Kind>
 void append(std::vector<TypeInfo>& types, std::string_view kind, std::span<const Entry<Kind>> entries)
 {
-    for (const Entry<Kind>& entry : entries)
-        types.push_back({kind, entry.name, plugin_source_manual(entry.class_name)});
+    for (const Entry<Kind>& entry : entries) {
+        const std::string_view manual = plugin_source_manual(entry.class_name);
+        types.push_back({kind, entry.name, manual});
+        for (const TypeName& other : other_type_names())
+            if (other.kind == kind && other.ours == entry.name)
+                types.push_back({kind, other.theirs, kept_text(manual_of_other_name(other, manual))});
+    }
 }
 
 std::vector<TypeInfo> all_types()

@@ -85,6 +85,13 @@ std::string_view unreadable_encoding(std::string_view text)
     return {};
 }
 
+bool is_object_of_mitsuba(std::string_view tag)
+{
+    constexpr std::string_view tags[] = {"sensor", "film",       "rfilter", "sampler", "bsdf",
+                                         "shape",  "integrator", "texture", "emitter"};
+    return std::find(std::begin(tags), std::end(tags), tag) != std::end(tags);
+}
+
 } // namespace
 
 TextFile::TextFile(std::filesystem::path path, std::string text, bool hides_lines)
@@ -120,9 +127,24 @@ std::string Element::value(std::string_view name) const
     return found ? found->value : std::string();
 }
 
+std::string Element::written_tag() const
+{
+    return written && !written->tag.empty() ? written->tag : tag;
+}
+
+std::string Element::written_type() const
+{
+    return written && !written->type.empty() ? written->type : value("type");
+}
+
+std::string Element::written_name() const
+{
+    return written && !written->name.empty() ? written->name : value("name");
+}
+
 SourceLocation Element::place() const
 {
-    return file->place(tag_offset, tag.size() + 1);
+    return file->place(tag_offset, written_tag().size() + 1);
 }
 
 SourceLocation Element::name_place(const Attribute& attribute) const
@@ -157,10 +179,11 @@ std::string read_text(const std::filesystem::path& path)
 }
 
 std::optional<Element> parse_document(const std::filesystem::path& path, std::string text,
-                                      Diagnostics& diagnostics)
+                                      Diagnostics& diagnostics, bool objects)
 {
     const std::string_view tag = root_tag(text);
-    const bool is_ours = tag == "scene" || tag == "test" || tag == "suite";
+    const bool is_ours =
+        tag == "scene" || tag == "test" || tag == "suite" || (objects && is_object_of_mitsuba(tag));
     // The text moves and the tag with it, so this comes before.
     Element stranger;
     stranger.tag = tag;

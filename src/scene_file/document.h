@@ -42,15 +42,28 @@ struct Attribute {
     bool broken = false;          // value is not what was meant, which has been reported
 };
 
+// What the file says, where the dialect's words have been replaced by ours (vocabulary.h). Empty: ours.
+struct Written {
+    std::string tag;
+    std::string type;
+    std::string name;
+};
+
 struct Element {
     std::string tag;
     std::shared_ptr<const TextFile> file;
     std::size_t tag_offset = 0; // of '<'
     std::vector<Attribute> attributes;
     std::vector<Element> children;
+    std::shared_ptr<const Written> written; // null: all as it stands in the file
 
     const Attribute* attribute(std::string_view name) const; // or null
     std::string value(std::string_view name) const;          // of an attribute; empty without it
+
+    // The tag and the attributes type and name as the file has them, for messages.
+    std::string written_tag() const;
+    std::string written_type() const;
+    std::string written_name() const;
 
     // Places, of one of this element's attributes where there is a parameter. They copy text, so they are made when
     // they are needed.
@@ -68,8 +81,9 @@ std::string read_text(const std::filesystem::path& path);
 
 // The root element. What is wrong with the XML goes to `diagnostics`; nothing where no tree could be made. Elements are
 // nested at most XmlLimits().depth levels. Of a file that does not begin with <scene>, <test> or <suite> nothing is
-// read or shown but its first tag: whoever wrote the scene that includes it may have no right to see it.
+// read or shown but its first tag: whoever wrote the scene that includes it may have no right to see it. objects: it may
+// also begin with an object, as files that Mitsuba's scenes include.
 std::optional<Element> parse_document(const std::filesystem::path& path, std::string text,
-                                      Diagnostics& diagnostics);
+                                      Diagnostics& diagnostics, bool objects = false);
 
 } // namespace plumb

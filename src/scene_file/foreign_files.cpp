@@ -64,14 +64,6 @@ const Element* find_mitsuba(const Element& element)
     return nullptr;
 }
 
-Diagnostic mitsuba(const SourceLocation& at, const std::string& version)
-{
-    return {Severity::error, at,
-            fmt::format("this is a scene of Mitsuba{}, which Plumb cannot read; 'renderer types' lists what "
-                        "Plumb's own scenes are made of",
-                        version)};
-}
-
 } // namespace
 
 std::optional<std::string> foreign_content(std::string_view text)
@@ -96,9 +88,14 @@ std::optional<Diagnostic> foreign_scene(const Element& root)
 {
     if (root.tag != "scene" || root.attribute("dialect")) return {};
     if (const Attribute* version = root.attribute("version"))
-        return mitsuba(root.name_place(*version), fmt::format(" {}", version->value));
-    if (const Element* found = find_mitsuba(root)) return mitsuba(found->place(), "");
-    return {};
+        return Diagnostic{
+            Severity::error, root.name_place(*version),
+            fmt::format("this is a scene of Mitsuba {}, which one of Plumb's own scenes cannot include",
+                        version->value)};
+    const Element* found = find_mitsuba(root);
+    if (!found) return {};
+    return Diagnostic{Severity::error, found->place(),
+                      "this is a scene of Mitsuba, but its root has no version: <scene version=\"3.0.0\">"};
 }
 
 } // namespace plumb

@@ -8,6 +8,9 @@
 #include "scene_file/expand.h"
 #include "scene_file/file_order.h"
 #include "scene_file/foreign_files.h"
+#include "scene_file/mitsuba_expand.h"
+#include "scene_file/mitsuba_words.h"
+#include "scene_file/nori_words.h"
 
 #include <chrono>
 #include <future>
@@ -56,6 +59,7 @@ std::string input_hash(const std::vector<InputFile>& files, const Dialect& diale
 // The root element must be a <scene>, and of ours.
 bool check_root(const Element& root, Diagnostics& diagnostics)
 {
+    if (is_mitsuba_scene(root)) return true;
     if (const auto foreign = foreign_scene(root)) {
         diagnostics.add(foreign->severity, foreign->location, foreign->message);
         return false;
@@ -84,15 +88,25 @@ LoadedScene load_scene(const std::filesystem::path& path, const LoadOptions& opt
     Diagnostics diagnostics;
     auto document = parse_document(path, read_text(path), diagnostics);
     if (!document || !check_root(*document, diagnostics)) fail(diagnostics, {});
-    const Expansion expansion =
-        expand(*std::move(document), {options.definitions.begin(), options.definitions.end()}, diagnostics);
+    const Definitions definitions(options.definitions.begin(), options.definitions.end());
+    const bool is_mitsuba = is_mitsuba_scene(*document);
+    Expansion expansion = is_mitsuba ? expand_mitsuba(*std::move(document), definitions, diagnostics)
+                                     : expand(*std::move(document), definitions, diagnostics);
 
     // The tree becomes objects.
     const DialectWishes wishes{options.dialect, options.emitters_absorb, options.mirrored_view,
                                options.environment_scale};
-    const DialectChoice choice = choose_dialect(expansion.root, wishes, diagnostics);
+    const DialectChoice choice = is_mitsuba ? mitsuba_choice(expansion.root, wishes, diagnostics)
+                                            : choose_dialect(expansion.root, wishes, diagnostics);
     const Dialect& dialect = choice.dialect;
+    const Vocabulary* const words =
+        is_mitsuba ? mitsuba_vocabulary(expansion.root, diagnostics) : &nori_vocabulary(dialect.name);
+    if (!words) fail(diagnostics, expansion.files);
+    const Readings readings(dialect, wishes);
+    expansion.root = arrange(std::move(expansion.root), *words,
+                             {.overrides = readings.presets(), .lenient = options.lenient}, diagnostics);
     LoadContext context{diagnostics, dialect, options.lenient, {}};
+    context.vocabulary = words;
     SceneParts parts = build_scene(expansion.root, options, context);
     if (diagnostics.has_errors()) fail(diagnostics, expansion.files);
     // Meanwhile; in another thread if there is one to be had.

@@ -7,6 +7,7 @@
 #include "scene_file/placement.h"
 #include "scene_file/property_values.h"
 #include "scene_file/shared_objects.h"
+#include "scene_file/vocabulary.h"
 
 #include <algorithm>
 #include <new>
@@ -40,10 +41,14 @@ ObjectReader::ObjectReader(const Element& element, LoadContext& context,
     : element_(element),
       context_(context),
       type_(element.value("type")),
-      params_(element.tag, type_, element.place(), context.diagnostics, context.dialect,
-              element.file->directory())
+      params_(element.tag, type_, element.place(), context.diagnostics, element.file->directory())
 {
     params_.set_lenient(context.lenient);
+    if (context.vocabulary)
+        params_.set_wording(
+            {element.written_tag(), element.written_type(),
+             [words = context.vocabulary, kind = kind_of(element), type = element.written_type()](
+                 std::string_view name) { return written_parameter(*words, kind, type, name); }});
     if (element.tag == "test")
         check_attributes(element, {"type"}, {"dialect", "name", "id"}, context.diagnostics);
     else
@@ -72,7 +77,8 @@ bool ObjectReader::is_first(const Element& child, std::string_view name, const S
     const auto [first, is_new] = given_.emplace(name, child.place());
     if (is_new) return true;
     const bool same_file = first->second.file == child.file->path().string();
-    context_.diagnostics.error(at, fmt::format("'{}' is given twice; first given at {} {}", name,
+    context_.diagnostics.error(at, fmt::format("'{}' is given twice; first given at {} {}",
+                                               params_.as_written(name),
                                                same_file ? "line" : first->second.file, first->second.line));
     return false;
 }
@@ -130,20 +136,28 @@ std::optional<std::string> ObjectReader::texture_name(const Element& child)
     if (names.size() == 1) return std::string(names.front());
     std::string choice;
     for (std::size_t i = 0; i < names.size(); ++i)
-        choice += fmt::format("{}name=\"{}\"", i == 0 ? "" : i + 1 == names.size() ? " or " : ", ", names[i]);
+        choice += fmt::format("{}name=\"{}\"",
+                              i == 0                  ? ""
+                              : i + 1 == names.size() ? " or "
+                                                      : ", ",
+                              params_.as_written(names[i]));
     if (!choice.empty())
         context_.diagnostics.error(
             child.place(), fmt::format("<{}> needs an attribute 'name', for {} '{}' takes several: {}",
-                                       child.tag, element_.tag, type_, choice));
+                                       child.tag, element_.written_tag(), element_.written_type(), choice));
     else if (kind_of_type(type_) == kind_of(element_))
-        context_.diagnostics.error(child.place(),
-                                   fmt::format("{} '{}' takes no texture", element_.tag, type_));
+        context_.diagnostics.error(
+            child.place(),
+            fmt::format("{} '{}' takes no texture", element_.written_tag(), element_.written_type()));
     return {};
 }
 
-void ObjectReader::fail_unknown_type(const std::vector<std::string_view>& names) const
+void ObjectReader::fail_unknown_type() const
 {
     const std::string_view kind = kind_of(element_);
+    std::vector<std::string_view> names;
+    for (const TypeInfo& type : known_types())
+        if (type.kind == kind) names.push_back(type.name);
     const SourceLocation at = element_.value_place(*element_.attribute("type"));
     if (const auto instead = foreign_type(kind, type_))
         context_.diagnostics.error(at, *instead);
@@ -171,8 +185,8 @@ void ObjectReader::run(std::string_view class_name, const std::function<void()>&
         done = true;
     } catch (const FileError& error) {
         context_.diagnostics.error(error.location(), error.what());
-        context_.diagnostics.note(file_place(),
-                                  fmt::format("the file is read by {} '{}'", element_.tag, type_));
+        context_.diagnostics.note(file_place(), fmt::format("the file is read by {} '{}'",
+                                                            element_.written_tag(), element_.written_type()));
     } catch (const Error& error) {
         if (!params_.missing_file()) context_.diagnostics.error(file_place(), error.what());
     } catch (const std::bad_alloc&) {

@@ -3,12 +3,14 @@
 
 // From one element of the tree to one plugin.
 
+#include "plumb/model/dialect.h"
 #include "scene_file/catalog.h"
 #include "scene_file/document.h"
 
 namespace plumb {
 
 class SharedObjects;
+struct Vocabulary;
 
 // What loading needs to know everywhere.
 struct LoadContext {
@@ -19,6 +21,7 @@ struct LoadContext {
     std::uint64_t texture_bytes = 0;          // of the pictures in textures
     SharedObjects* shared = nullptr;          // never null where BSDFs are built
     int bsdf_depth = 0;                       // how many BSDFs are around what is being built
+    const Vocabulary* vocabulary = nullptr;   // the file's, for messages; null: our own words
 
     void add_file(const std::filesystem::path& file);
 };
@@ -57,13 +60,10 @@ private:
     template <class Kind>
     const Entry<Kind>* find(std::span<const Entry<Kind>> entries)
     {
-        std::vector<std::string_view> names;
-        for (const Entry<Kind>& entry : entries) {
+        for (const Entry<Kind>& entry : entries)
             if (entry.name == type_) return &entry;
-            names.push_back(entry.name);
-        }
         const Attribute* type = element_.attribute("type");
-        if (type && !type->broken) fail_unknown_type(names);
+        if (type && !type->broken) fail_unknown_type();
         return nullptr;
     }
 
@@ -75,7 +75,7 @@ private:
     void add_ref(const Element& child);
     std::optional<std::string> texture_name(const Element& child);
     bool is_first(const Element& child, std::string_view name, const SourceLocation& at);
-    void fail_unknown_type(const std::vector<std::string_view>& names) const;
+    void fail_unknown_type() const;
     void run(std::string_view class_name, const std::function<void()>& construct);
     void check_against_manual(std::string_view class_name);
     void finish();

@@ -5,6 +5,7 @@
 #include "scene_file/dialects.h"
 #include "scene_file/expand.h"
 #include "scene_file/file_order.h"
+#include "scene_file/nori_words.h"
 #include "scene_file/property_values.h"
 #include "scene_file/shared_objects.h"
 
@@ -31,8 +32,8 @@ const Element* first_child(const Element& element, std::string_view tag)
 std::string element_name(const Element& element, const Element& root)
 {
     const SourceLocation at = element.place();
-    const std::string type = element.value("type");
-    return fmt::format("{}{} ({} {})", element.tag, type.empty() ? "" : fmt::format(" '{}'", type),
+    const std::string type = element.written_type();
+    return fmt::format("{}{} ({} {})", element.written_tag(), type.empty() ? "" : fmt::format(" '{}'", type),
                        element.file == root.file ? "line"
                                                  : std::filesystem::path(at.file).filename().string() + ":",
                        at.line);
@@ -55,7 +56,7 @@ public:
         build_emitters();
         build_scenes();
         if (!diagnostics_.has_errors()) check_counts();
-        make_sampler(neutral);
+        make_sampler();
         return std::move(test_);
     }
 
@@ -166,9 +167,11 @@ private:
     {
         if (!first_child(root_, "emitter")) return;
         const Dialect dialect = choose_dialect(root_, wishes(), diagnostics_).dialect;
+        const Element root = arrange(root_, dialect, wishes(), diagnostics_);
         LoadContext context{diagnostics_, dialect, options_.lenient, {}};
-        SharedObjects shared(root_, context);
-        for (const Element& child : root_.children) {
+        context.vocabulary = &nori_vocabulary(dialect.name);
+        SharedObjects shared(root, context);
+        for (const Element& child : root.children) {
             if (child.tag != "emitter") continue;
             if (child.value("type") == "area")
                 diagnostics_.error(child.value_place(*child.attribute("type")),
@@ -229,8 +232,10 @@ private:
 
     void build_scene_of_test(const Element& element, const Dialect& dialect)
     {
+        const Element root = arrange(element, dialect, wishes(), diagnostics_);
         LoadContext context{diagnostics_, dialect, options_.lenient, {}};
-        SceneParts parts = build_scene(element, options_, context);
+        context.vocabulary = &nori_vocabulary(dialect.name);
+        SceneParts parts = build_scene(root, options_, context);
         if (diagnostics_.has_errors()) return;
         const std::string name = fmt::format("{}, {}", element_name(element, root_), parts.integrator_type);
         if (auto job = assemble(std::move(parts), options_, context))
@@ -273,10 +278,9 @@ private:
                     fmt::format("references must hold {}, not {}", wanted, test_.references.size()));
     }
 
-    void make_sampler(const Dialect& dialect)
+    void make_sampler()
     {
-        const Params params("sampler", "independent", root_.place(), diagnostics_, dialect,
-                            root_.file->directory());
+        const Params params("sampler", "independent", root_.place(), diagnostics_, root_.file->directory());
         for (const Entry<Sampler>& entry : sampler_types())
             if (entry.name == "independent") test_.sampler = entry.build(params);
     }

@@ -102,7 +102,7 @@ std::vector<NamedParams> direct_light_integrators()
     result.push_back({"direct by uniform hemisphere", integrator_params("direct")
                                                           .string("measure", "hemisphere")
                                                           .string("warp-type", "uniform-hemisphere")});
-    result.push_back({"path_ems of one bounce", integrator_params("path_ems").integer("maxDepth", 1)});
+    result.push_back({"path_nee of one bounce", integrator_params("path_nee").integer("maxDepth", 1)});
     result.push_back({"explicit path of one bounce, by solid angle",
                       configured_path(true, "max-depth", 1).string("direct-measure", "solid-angle")});
     return result;

@@ -103,7 +103,7 @@ LittleScene& LittleScene::room(const MakeBsdf& bsdf, std::optional<Color> radian
 
 LittleScene& LittleScene::point_light(const Vec3f& position, const Color& intensity)
 {
-    lights_.push_back(ParamsBuilder("emitter", "pointlight")
+    lights_.push_back(ParamsBuilder("emitter", "point")
                           .point("position", position)
                           .color("radiance", intensity)
                           .build<PointEmitter, Emitter>());

@@ -52,7 +52,7 @@ std::vector<double> numbers(const Vec3f& v)
 } // namespace
 
 ParamsBuilder::ParamsBuilder(std::string kind, std::string type)
-    : kind_(std::move(kind)), type_(std::move(type)), dialect_(Dialect::standard(DialectName::plumb))
+    : kind_(std::move(kind)), type_(std::move(type))
 {}
 
 ParamsBuilder& ParamsBuilder::add(const std::string& name, const char* tag, Property::Value value)
@@ -120,12 +120,6 @@ ParamsBuilder& ParamsBuilder::parent_shape(const Shape* shape)
     return *this;
 }
 
-ParamsBuilder& ParamsBuilder::dialect(const Dialect& value)
-{
-    dialect_ = value;
-    return *this;
-}
-
 ParamsBuilder& ParamsBuilder::directory(const std::filesystem::path& value)
 {
     directory_ = value;
@@ -142,7 +136,7 @@ std::string ParamsBuilder::text() const
 
 Params ParamsBuilder::make_params(Diagnostics& diagnostics) const
 {
-    Params params(kind_, type_, place_of(type_), diagnostics, dialect_, directory_);
+    Params params(kind_, type_, place_of(type_), diagnostics, directory_);
     for (const auto& [name, property] : properties_) params.add(name, property);
     for (const auto& child : textures_) params.add_texture(child);
     params.set_parent_shape(parent_shape_);

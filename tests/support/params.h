@@ -34,7 +34,6 @@ public:
     ParamsBuilder& transform(const std::string& name, const Transform& value);
     ParamsBuilder& texture(const std::string& name, std::shared_ptr<const Texture> value);
     ParamsBuilder& parent_shape(const Shape* shape);
-    ParamsBuilder& dialect(const Dialect& value);
     ParamsBuilder& directory(const std::filesystem::path& value);
 
     const std::string& kind() const { return kind_; }
@@ -98,7 +97,6 @@ private:
     std::vector<std::pair<std::string, Property>> properties_;
     std::vector<TextureChild> textures_;
     const Shape* parent_shape_ = nullptr;
-    Dialect dialect_;
     std::filesystem::path directory_;
 };
 

@@ -69,8 +69,7 @@ private:
                const std::string& file)
     {
         Diagnostics diagnostics;
-        const Dialect dialect;
-        Params params(kind, std::string(entry.name), {}, diagnostics, dialect, directory_.path());
+        Params params(kind, std::string(entry.name), {}, diagnostics, directory_.path());
         if (all_given) { // with values that cannot be read
             Property property;
             property.broken = true;

@@ -23,7 +23,7 @@ TEST_CASE("light of point and directional emitters arrives in its closed form", 
         CHECK(sample->pdf == 1.f);
         return *sample;
     };
-    const auto lamp = ParamsBuilder("emitter", "pointlight")
+    const auto lamp = ParamsBuilder("emitter", "point")
                           .point("position", Vec3f(0, 3, 4))
                           .color("radiance", Color(50.f, 25.f, 0.f))
                           .build<PointEmitter, Emitter>();
@@ -57,17 +57,17 @@ TEST_CASE("light of point and directional emitters arrives in its closed form", 
     CHECK(sun->power() == Approx(7.0 * pi_d * 100.0).epsilon(1e-5));
 }
 
-TEST_CASE("the direction of directional light is where it goes, but for mcgill", "[unit][emitter]")
+TEST_CASE("the direction of directional light is where it goes, unless it points to the light",
+          "[unit][emitter]")
 {
-    for (const DialectName name : all_dialects) {
-        const auto sun = ParamsBuilder("emitter", "directional")
-                             .vector("direction", Vec3f(0, -2, 0))
-                             .dialect(Dialect::standard(name))
-                             .build<DirectionalEmitter, Emitter>();
-        const auto light = sun->sample({}, 0.5, Vec2f(0.5f), Measure::best);
-        REQUIRE(light);
-        CHECK(light->wi == Vec3f(0, name == DialectName::mcgill ? -1 : 1, 0));
-    }
+    const bool points_to_light = GENERATE(false, true);
+    const auto sun = ParamsBuilder("emitter", "directional")
+                         .vector("direction", Vec3f(0, -2, 0))
+                         .boolean("pointsToLight", points_to_light)
+                         .build<DirectionalEmitter, Emitter>();
+    const auto light = sun->sample({}, 0.5, Vec2f(0.5f), Measure::best);
+    REQUIRE(light);
+    CHECK(light->wi == Vec3f(0, points_to_light ? -1 : 1, 0));
 }
 
 TEST_CASE("the power of area emitters is what they send out", "[unit][emitter]")
@@ -81,36 +81,6 @@ TEST_CASE("the power of area emitters is what they send out", "[unit][emitter]")
     });
     CHECK(textured.emitter().power() == Approx(pi_d * 4.0).epsilon(1e-5)); // pi times the mean radiance of 4
     CHECK(white(panel(Vec3f(0.f), 1.0, 1.0, Vec3f(0, 0, 1)), 0.f).emitter().power() == 0.f);
-}
-
-TEST_CASE("emitters have the defaults of their dialect", "[unit][emitter]")
-{
-    const auto shape = panel(Vec3f(0.f), 1.0, 1.0, Vec3f(0, 0, 1));
-    const auto area_power = [&](DialectName name) {
-        return ParamsBuilder("emitter", "area")
-            .parent_shape(shape.get())
-            .dialect(Dialect::standard(name))
-            .build<AreaEmitter, Emitter>()
-            ->power();
-    };
-    CHECK(area_power(DialectName::zaragoza) == Approx(pi_d).epsilon(1e-5));
-    CHECK(area_power(DialectName::mcgill) == 0.f);
-
-    const auto point_power = [](const char* type, DialectName name) {
-        return ParamsBuilder("emitter", type)
-            .dialect(Dialect::standard(name))
-            .build<PointEmitter, Emitter>()
-            ->power();
-    };
-    CHECK(point_power("pointlight", DialectName::zaragoza) == Approx(4.0 * pi_d).epsilon(1e-5));
-    CHECK(point_power("point", DialectName::mcgill) == 0.f);
-    CHECK(point_power("point", DialectName::eth) == Approx(1.0).epsilon(1e-5));
-    const auto distance = [](const char* type) {
-        const auto light = ParamsBuilder("emitter", type).build<PointEmitter, Emitter>();
-        return light->sample({Vec3f(0, -1, 0)}, 0.0, Vec2f(0.5f), Measure::best)->distance;
-    };
-    CHECK(distance("pointlight") == 101.f);
-    CHECK(distance("point") == 1.f);
 }
 
 TEST_CASE("bad emitters are errors", "[unit][emitter]")

@@ -45,22 +45,20 @@ Image picture(Picture which)
     return image;
 }
 
-Dialect dialect_of(bool flipped)
+// As in the Zaragoza dialect, or as in ours.
+ParamsBuilder environment_params(bool flipped)
 {
-    Dialect dialect;
-    dialect.environment_flipped = flipped;
-    dialect.environment_scale = flipped ? 0.5f : 1.f;
-    return dialect;
+    ParamsBuilder params("emitter", "environment");
+    if (flipped) params.boolean("flipped", true).number("imageScale", 0.5);
+    return params;
 }
 
 std::unique_ptr<Emitter> environment(Picture which, bool flipped, const Color& radiance = Color(1.f))
 {
     const TempDirectory directory;
     write_image(directory / "sky.exr", picture(which));
-    const Dialect dialect = dialect_of(flipped);
-    return ParamsBuilder("emitter", "environment")
+    return environment_params(flipped)
         .directory(directory.path())
-        .dialect(dialect)
         .string("filename", "sky.exr")
         .color("radiance", radiance)
         .build<EnvironmentEmitter, Emitter>();
@@ -256,9 +254,7 @@ TEST_CASE("environment light is sampled with the density it claims", "[statistic
 TEST_CASE("an environment of one colour", "[unit][environment]")
 {
     const Color radiance(0.5f, 1.f, 2.f);
-    const Dialect dialect = dialect_of(GENERATE(false, true)); // which changes pictures only
-    const auto emitter = ParamsBuilder("emitter", "environment")
-                             .dialect(dialect)
+    const auto emitter = environment_params(GENERATE(false, true)) // which changes pictures only
                              .color("radiance", radiance)
                              .build<EnvironmentEmitter, Emitter>();
     emitter->prepare({Vec3f(0.f), 2.f});

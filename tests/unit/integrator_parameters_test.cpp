@@ -191,7 +191,7 @@ TEST_CASE("an integrator says what it leaves out", "[unit][integrator]")
 {
     const Scene scene = LittleScene().room(diffuse(0.5f), Color(1.f)).build();
     const auto bias = [&](const ParamsBuilder& params) { return make_integrator(params, scene)->bias(); };
-    for (const char* type : {"path", "path_nee", "path_mis", "path_mats", "path_ems"}) {
+    for (const char* type : {"path", "path_nee", "path_mis", "path_mats"}) {
         CHECK(bias(integrator_params(type)).empty());
         CHECK(bias(integrator_params(type).integer("maxDepth", 5)) ==
               "light of more than 5 surface bounces is omitted");

@@ -49,8 +49,7 @@ private:
     }
 
     Diagnostics diagnostics_;
-    Dialect dialect_;
-    Params params_{"bsdf", "diffuse", element(), diagnostics_, dialect_, {}};
+    Params params_{"bsdf", "diffuse", element(), diagnostics_, {}};
 };
 
 using Numbers = std::vector<double>;
@@ -270,9 +269,8 @@ TEST_CASE("files are found beside the scene file", "[unit][params]")
     std::filesystem::create_directory(directory.path() / "sub");
     std::ofstream(directory.path() / "mesh.obj") << "v 0 0 0\n";
     Diagnostics diagnostics;
-    const Dialect dialect;
     const auto given = [&](const std::string& name) {
-        Params params("mesh", "obj", {}, diagnostics, dialect, directory.path() / "sub");
+        Params params("mesh", "obj", {}, diagnostics, directory.path() / "sub");
         Property property;
         property.tag = "string";
         property.value = name;

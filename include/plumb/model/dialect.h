@@ -9,8 +9,10 @@
 
 namespace plumb {
 
-enum class DialectName { plumb, epfl, eth, zaragoza, mcgill };
+// The last one is not a course's: `version` at the root of a file says so, and nothing else does.
+enum class DialectName { plumb, epfl, eth, zaragoza, mcgill, mitsuba3 };
 
+// Those that the command line and the dialect attribute can name.
 inline constexpr DialectName all_dialects[] = {DialectName::plumb, DialectName::epfl, DialectName::eth,
                                                DialectName::zaragoza, DialectName::mcgill};
 

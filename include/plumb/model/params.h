@@ -10,7 +10,6 @@
 #include "plumb/base/error.h"
 #include "plumb/math/color.h"
 #include "plumb/math/transform.h"
-#include "plumb/model/dialect.h"
 #include "plumb/model/texture.h"
 
 #include <filesystem>
@@ -75,10 +74,17 @@ struct BsdfChild {
     mutable bool asked = false;
 };
 
+// What messages call an object and its parameters, where the file has other words for them than the plugin.
+struct Wording {
+    std::string kind;
+    std::string type;
+    std::function<std::string_view(std::string_view)> parameter; // the file's name of one of ours
+};
+
 class Params {
 public:
     Params(std::string kind, std::string type, SourceLocation element_at, Diagnostics& diagnostics,
-           const Dialect& dialect, std::filesystem::path directory);
+           std::filesystem::path directory);
 
     // Filled by the loader (and by tests).
     void add(std::string name, Property property);
@@ -86,6 +92,7 @@ public:
     void add_bsdf(BsdfChild child) { bsdfs_.push_back(std::move(child)); }
     void set_parent_shape(const Shape* shape) { parent_shape_ = shape; }
     void set_lenient(bool lenient) { lenient_ = lenient; }
+    void set_wording(Wording wording);
 
     // What the constructor asks. Those without a default are required.
     bool has(std::string_view name) const; // asks
@@ -118,8 +125,8 @@ public:
     std::size_t bsdf_count() const { return bsdfs_.size(); }
 
     const Shape* parent_shape() const { return parent_shape_; }
-    const Dialect& dialect() const { return dialect_; }
     const std::string& type() const { return type_; }
+    std::string_view as_written(std::string_view name) const; // a parameter's name, as the file has it
 
     // Errors and warnings at the value of parameter `name`, or at the element where it is absent. The message of an
     // error follows the parameter's name: fail("alpha", "must be ...") says "alpha must be ...".
@@ -144,12 +151,14 @@ private:
     const SourceLocation& value_place(std::string_view name) const;
     void reject_unused_bsdfs() const;
     void fail_missing(std::string_view name, std::string_view tag) const;
+    const std::string& written_kind() const { return wording_ ? wording_->kind : kind_; }
+    const std::string& written_type() const { return wording_ ? wording_->type : type_; }
 
     std::string kind_;
     std::string type_;
     SourceLocation element_at_;
     Diagnostics& diagnostics_;
-    const Dialect& dialect_;
+    std::optional<Wording> wording_;
     std::filesystem::path directory_;
     std::map<std::string, Property, std::less<>> properties_;
     std::vector<TextureChild> textures_;

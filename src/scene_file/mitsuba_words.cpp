@@ -1,0 +1,477 @@
+// SPDX-License-Identifier: MIT
+#include "scene_file/mitsuba_words.h"
+
+#include "scene_file/mitsuba_values.h"
+
+#include <charconv>
+
+#include <fmt/format.h>
+
+namespace plumb {
+
+namespace {
+
+constexpr std::string_view vacuum = "Plumb renders surfaces in a vacuum only";
+constexpr std::string_view as_mesh = "export it as a mesh";
+constexpr std::string_view as_envmap = "render it to a picture and use 'envmap'";
+constexpr std::string_view estimates_light = "Plumb's integrators are estimators of light; use 'path'";
+constexpr std::string_view same_light =
+    "this is rendered by 'path', which finds the same light up to noise (path_mis in 'renderer types')";
+
+constexpr TagName tags[] = {
+    {"scene", "scene"},
+    {"integrator", "integrator"},
+    {"sensor", "camera"},
+    {"film", "film"},
+    {"rfilter", "rfilter"},
+    {"sampler", "sampler"},
+    {"shape", "shape"},
+    {"bsdf", "bsdf"},
+    {"texture", "texture"},
+    {"emitter", "emitter"},
+    {"ref", "ref"},
+    {"rgb", "color"},
+    {"spectrum", "color"},
+    {"float", "float"},
+    {"integer", "integer"},
+    {"boolean", "boolean"},
+    {"string", "string"},
+    {"point", "point"},
+    {"vector", "vector"},
+    {"transform", "transform"},
+    {"translate", "translate"},
+    {"scale", "scale"},
+    {"rotate", "rotate"},
+    {"lookat", "lookat"},
+    {"matrix", "matrix"},
+};
+
+constexpr TypeName types[] = {
+    {"integrator", "path", "path_mis"},
+    {"integrator", "direct", "path_mis"},
+    {"integrator", "volpath", "path_mis"}, // in scenes without media the same
+    {"integrator", "volpathmis", "path_mis"},
+    {"integrator", "ptracer", "path_mis", same_light},
+    {"integrator", "bdpt", "path_mis", same_light},
+    {"integrator", "photonmapper", "path_mis", same_light},
+    {"integrator", "ppm", "path_mis", same_light},
+    {"integrator", "sppm", "path_mis", same_light},
+    {"integrator", "mlt", "path_mis", same_light},
+    {"integrator", "pssmlt", "path_mis", same_light},
+    {"integrator", "vcm", "path_mis", same_light},
+    {"integrator", "moment", "moment"}, // their child takes their place
+    {"integrator", "aov", "aov"},
+
+    {"camera", "perspective", "perspective"},
+    {"camera", "thinlens", "perspective"},
+    {"camera", "orthographic", "orthographic"},
+    {"film", "hdrfilm", "hdrfilm"},
+    {"rfilter", "box", "box"},
+    {"rfilter", "tent", "tent"},
+    {"rfilter", "gaussian", "gaussian"},
+    {"rfilter", "mitchell", "mitchell"},
+    {"rfilter", "catmullrom", "catmullrom"},
+    {"rfilter", "lanczos", "lanczos"},
+    {"sampler", "independent", "independent"},
+    {"sampler", "stratified", "stratified"},
+    {"sampler", "multijitter", "stratified"},
+    {"sampler", "ldsampler", "sobol"},
+    {"sampler", "orthogonal", "sobol"},
+
+    {"shape", "obj", "obj"},
+    {"shape", "ply", "ply"},
+    {"shape", "serialized", "serialized"},
+    {"shape", "sphere", "sphere"},
+    {"shape", "rectangle", "rectangle"},
+    {"shape", "disk", "disk"},
+    {"shape", "cube", "cube"},
+    {"shape", "cylinder", "cylinder"},
+    {"shape", "shapegroup", "group"},
+    {"shape", "instance", "instance"},
+
+    {"bsdf", "diffuse", "diffuse"},
+    {"bsdf", "dielectric", "dielectric"},
+    {"bsdf", "thindielectric", "thindielectric"},
+    {"bsdf", "roughdielectric", "roughdielectric"},
+    {"bsdf", "conductor", "conductor"},
+    {"bsdf", "roughconductor", "roughconductor"},
+    {"bsdf", "plastic", "plastic"},
+    {"bsdf", "roughplastic", "roughplastic"},
+    {"bsdf", "principled", "principled"},
+    {"bsdf", "principledthin", "principledthin"},
+    {"bsdf", "twosided", "twosided"},
+    {"bsdf", "mask", "mask"},
+    {"bsdf", "null", "null"},
+    {"bsdf", "blendbsdf", "blend"},
+    {"bsdf", "normalmap", "normalmap"},
+    {"bsdf", "bumpmap", "bumpmap"},
+
+    {"texture", "bitmap", "bitmap"},
+    {"texture", "checkerboard", "checkerboard"},
+    {"texture", "rawconstant", "rawconstant"},
+    {"texture", "mesh_attribute", "meshattribute"},
+
+    {"emitter", "area", "area"},
+    {"emitter", "point", "point"},
+    {"emitter", "spot", "spot"},
+    {"emitter", "projector", "projector"},
+    {"emitter", "directional", "directional"},
+    {"emitter", "constant", "environment"},
+    {"emitter", "envmap", "environment"},
+};
+
+constexpr ParamName params[] = {
+    {"integrator", "moment", "*", ""},
+    {"integrator", "aov", "*", ""},
+    {"integrator", "direct", "hide_emitters", "hideEmitters"},
+    {"integrator", "", "max_depth", "maxDepth", depth_minus_one},
+    {"integrator", "", "rr_depth", "rrDepth"},
+    {"integrator", "", "hide_emitters", "hideEmitters"},
+
+    {"camera", "perspective", "to_world", "toWorld", without_scale},
+    {"camera", "thinlens", "to_world", "toWorld", without_scale},
+    {"camera", "orthographic", "to_world", "toWorld"},
+    {"camera", "", "near_clip", "nearClip"},
+    {"camera", "", "far_clip", "farClip"},
+    {"camera", "perspective", "fov", "fov"},
+    {"camera", "perspective", "fov_axis", "fovAxis"},
+    {"camera", "perspective", "focal_length", "focalLengthMm", millimetres},
+    {"camera", "perspective", "principal_point_offset_x", "principalPointOffsetX"},
+    {"camera", "perspective", "principal_point_offset_y", "principalPointOffsetY"},
+    {"camera", "thinlens", "fov", "fov"},
+    {"camera", "thinlens", "fov_axis", "fovAxis"},
+    {"camera", "thinlens", "focal_length", "focalLengthMm", millimetres},
+    {"camera", "thinlens", "aperture_radius", "lensRadius"},
+    {"camera", "thinlens", "focus_distance", "focalDistance"},
+
+    {"film", "", "width", "width"},
+    {"film", "", "height", "height"},
+    {"film", "", "crop_offset_x", "cropOffsetX"},
+    {"film", "", "crop_offset_y", "cropOffsetY"},
+    {"film", "", "crop_width", "cropWidth"},
+    {"film", "", "crop_height", "cropHeight"},
+    {"film", "", "sample_border", "sampleBorder"},
+    {"rfilter", "gaussian", "stddev", "stddev"},
+    {"rfilter", "tent", "radius", "radius"},
+    {"rfilter", "box", "radius", "radius"},
+    {"rfilter", "lanczos", "lobes", "lobes"},
+    {"sampler", "", "sample_count", "sampleCount"},
+
+    {"shape", "", "to_world", "toWorld"},
+    {"shape", "obj", "filename", "filename"},
+    {"shape", "obj", "face_normals", "faceNormals"},
+    {"shape", "obj", "flip_tex_coords", "flipV"},
+    {"shape", "obj", "flip_normals", "flipNormals"},
+    {"shape", "ply", "filename", "filename"},
+    {"shape", "ply", "face_normals", "faceNormals"},
+    {"shape", "ply", "flip_tex_coords", "flipV"},
+    {"shape", "ply", "flip_normals", "flipNormals"},
+    {"shape", "serialized", "filename", "filename"},
+    {"shape", "serialized", "shape_index", "shapeIndex"},
+    {"shape", "serialized", "face_normals", "faceNormals"},
+    {"shape", "serialized", "flip_tex_coords", "flipV"},
+    {"shape", "serialized", "flip_normals", "flipNormals"},
+    {"shape", "sphere", "center", "center"},
+    {"shape", "sphere", "radius", "radius"},
+    {"shape", "sphere", "flip_normals", "flipNormals"},
+    {"shape", "rectangle", "flip_normals", "flipNormals"},
+    {"shape", "disk", "flip_normals", "flipNormals"},
+    {"shape", "cube", "flip_normals", "flipNormals"},
+    {"shape", "cylinder", "p0", "p0"},
+    {"shape", "cylinder", "p1", "p1"},
+    {"shape", "cylinder", "radius", "radius"},
+    {"shape", "cylinder", "flip_normals", "flipNormals"},
+
+    {"bsdf", "diffuse", "reflectance", "albedo", color_of_reflectance},
+    {"bsdf", "", "int_ior", "intIOR", index_by_name},
+    {"bsdf", "", "ext_ior", "extIOR", index_by_name},
+    {"bsdf", "", "specular_reflectance", "specularReflectance", color_of_reflectance},
+    {"bsdf", "", "specular_transmittance", "specularTransmittance", color_of_reflectance},
+    {"bsdf", "", "diffuse_reflectance", "diffuseReflectance", color_of_reflectance},
+    {"bsdf", "", "nonlinear", "nonlinear"},
+    {"bsdf", "conductor", "material", "material"},
+    {"bsdf", "conductor", "eta", "eta", color_of_index},
+    {"bsdf", "conductor", "k", "k", color_of_index},
+    {"bsdf", "roughconductor", "material", "material"},
+    {"bsdf", "roughconductor", "eta", "eta", color_of_index},
+    {"bsdf", "roughconductor", "k", "k", color_of_index},
+    {"bsdf", "", "distribution", "distribution"},
+    {"bsdf", "", "alpha", "alpha", to_number},
+    {"bsdf", "", "alpha_u", "alphaU", to_number},
+    {"bsdf", "", "alpha_v", "alphaV", to_number},
+    {"bsdf", "", "base_color", "baseColor", color_of_reflectance},
+    {"bsdf", "", "roughness", "roughness", to_number},
+    {"bsdf", "", "anisotropic", "anisotropic", to_number},
+    {"bsdf", "", "metallic", "metallic", to_number},
+    {"bsdf", "", "spec_trans", "specTrans", to_number},
+    {"bsdf", "", "eta", "eta", to_number},
+    {"bsdf", "", "specular", "specular", to_number},
+    {"bsdf", "", "spec_tint", "specTint", to_number},
+    {"bsdf", "", "sheen", "sheen", to_number},
+    {"bsdf", "", "sheen_tint", "sheenTint", to_number},
+    {"bsdf", "", "flatness", "flatness", to_number},
+    {"bsdf", "", "clearcoat", "clearcoat", to_number},
+    {"bsdf", "", "clearcoat_gloss", "clearcoatGloss", to_number},
+    {"bsdf", "", "diff_trans", "diffTrans", to_number},
+    {"bsdf", "mask", "opacity", "opacity", to_number},
+    {"bsdf", "blendbsdf", "weight", "weight", to_number},
+    {"bsdf", "normalmap", "normalmap", "normal"},
+    {"bsdf", "", "use_shadowing_function", "useShadowing"},
+    {"bsdf", "", "flip_invalid_normals", "flipInvalidNormals"},
+    {"bsdf", "bumpmap", "scale", "scale"},
+    {"bsdf", "bumpmap", "*", ""}, // the texture has any name
+
+    {"texture", "bitmap", "filename", "filename"},
+    {"texture", "bitmap", "raw", "raw"},
+    {"texture", "bitmap", "filter_type", "filter"},
+    {"texture", "bitmap", "wrap_mode", "wrap"},
+    {"texture", "", "to_uv", "toUv"},
+    {"texture", "checkerboard", "color0", "color0", color_of_index},
+    {"texture", "checkerboard", "color1", "color1", color_of_index},
+    {"texture", "rawconstant", "value", "value"},
+    {"texture", "mesh_attribute", "name", "attribute"},
+
+    {"emitter", "area", "radiance", "radiance", color_of_emission},
+    {"emitter", "point", "intensity", "radiance", color_of_emission},
+    {"emitter", "point", "position", "position"},
+    {"emitter", "point", "to_world", "position", position_of},
+    {"emitter", "directional", "irradiance", "radiance", color_of_emission},
+    {"emitter", "directional", "direction", "direction"},
+    {"emitter", "directional", "to_world", "direction", direction_of},
+    {"emitter", "spot", "to_world", "toWorld"},
+    {"emitter", "spot", "intensity", "intensity", color_of_emission},
+    {"emitter", "spot", "cutoff_angle", "cutoffAngle"},
+    {"emitter", "spot", "beam_width", "beamWidth"},
+    {"emitter", "spot", "texture", "texture"},
+    {"emitter", "projector", "to_world", "toWorld"},
+    {"emitter", "projector", "irradiance", "irradiance", color_of_emission},
+    {"emitter", "projector", "scale", "scale"},
+    {"emitter", "projector", "fov", "fov"},
+    {"emitter", "projector", "fov_axis", "fovAxis"},
+    {"emitter", "projector", "focal_length", "focalLengthMm", millimetres},
+    {"emitter", "constant", "radiance", "radiance", color_of_emission},
+    {"emitter", "envmap", "filename", "filename"},
+    {"emitter", "envmap", "scale", "scale"},
+    {"emitter", "envmap", "to_world", "toWorld"},
+};
+
+constexpr Preset presets[] = {
+    {"integrator", "direct", "integer", "maxDepth", "1"},
+    {"integrator", "", "boolean", "countPasses", "true"},
+    {"integrator", "", "integer", "rrDepth", "5"},
+    {"camera", "perspective", "float", "nearClip", "0.01"},
+    {"camera", "perspective", "float", "farClip", "10000"},
+    {"camera", "perspective", "float", "focalLengthMm", "50", "fov"},
+    {"camera", "thinlens", "float", "nearClip", "0.01"},
+    {"camera", "thinlens", "float", "farClip", "10000"},
+    {"camera", "thinlens", "float", "focalLengthMm", "50", "fov"},
+    {"camera", "orthographic", "float", "nearClip", "0.01"},
+    {"camera", "orthographic", "float", "farClip", "10000"},
+    {"film", "", "integer", "width", "768"},
+    {"film", "", "integer", "height", "576"},
+    {"film", "", "boolean", "sampleBorder", "false"},
+    {"sampler", "", "integer", "sampleCount", "4"},
+
+    {"shape", "rectangle", "float", "width", "2"},
+    {"shape", "rectangle", "float", "height", "2"},
+    {"shape", "cube", "float", "width", "2"},
+    {"shape", "sphere", "boolean", "flipU", "true"},
+    {"shape", "obj", "boolean", "smooth", "true"},
+    {"shape", "obj", "boolean", "flipV", "true"},
+    {"shape", "ply", "boolean", "smooth", "true"},
+    {"shape", "serialized", "boolean", "smooth", "true"},
+
+    {"bsdf", "dielectric", "float", "intIOR", "1.5046"},
+    {"bsdf", "dielectric", "float", "extIOR", "1.000277"},
+    {"bsdf", "thindielectric", "float", "intIOR", "1.5046"},
+    {"bsdf", "thindielectric", "float", "extIOR", "1.000277"},
+    {"bsdf", "roughdielectric", "float", "intIOR", "1.5046"},
+    {"bsdf", "roughdielectric", "float", "extIOR", "1.000277"},
+    {"bsdf", "roughdielectric", "float", "alpha", "0.1", "alphaU"},
+    {"bsdf", "roughconductor", "string", "material", "none", "eta"},
+    {"bsdf", "roughconductor", "float", "alpha", "0.1", "alphaU"},
+    {"bsdf", "roughplastic", "float", "alpha", "0.1"},
+    {"bsdf", "normalmap", "boolean", "useShadowing", "true"},
+    {"bsdf", "bumpmap", "boolean", "useShadowing", "true"},
+
+    {"texture", "bitmap", "string", "vOrigin", "top"},
+    {"texture", "checkerboard", "boolean", "swapNumbers", "true"},
+
+    {"emitter", "projector", "boolean", "flipV", "true"},
+    {"emitter", "envmap", "float", "columnOffset", "0.25"},
+    {"emitter", "envmap", "boolean", "rowsAtPoles", "true"},
+};
+
+constexpr Refusal refusals[] = {
+    {"medium", "", vacuum},
+    {"volume", "", vacuum},
+    {"phase", "", vacuum},
+    {"blackbody", "", "write <spectrum type=\"blackbody\" name=\"...\">"},
+    {"srgb", "", "write it as a linear <rgb>"},
+    {"shape", "sdfgrid", as_mesh},
+    {"shape", "bsplinecurve", as_mesh},
+    {"shape", "linearcurve", as_mesh},
+    {"shape", "ellipsoids", as_mesh},
+    {"shape", "ellipsoidsmesh", as_mesh},
+    {"shape", "merge", "write its shapes one by one"},
+    {"bsdf", "hair", "use 'principled'"},
+    {"bsdf", "measured", "use 'principled'"},
+    {"bsdf", "polarizer", "Plumb's light is not polarised"},
+    {"bsdf", "retarder", "Plumb's light is not polarised"},
+    {"bsdf", "circular", "Plumb's light is not polarised"},
+    {"bsdf", "pplastic", "use 'roughplastic'"},
+    {"emitter", "sunsky", as_envmap},
+    {"emitter", "timed_sunsky", as_envmap},
+    {"emitter", "sky", as_envmap},
+    {"emitter", "directionalarea", "use 'directional'"},
+    {"texture", "volume", vacuum},
+    {"camera", "irradiancemeter", "use 'perspective'"},
+    {"camera", "radiancemeter", "use 'perspective' with a small fov"},
+    {"camera", "distant", "use 'orthographic'"},
+    {"camera", "batch", "write one file for each sensor"},
+    {"film", "specfilm", "use 'hdrfilm'"},
+    {"film", "ldrfilm", "use 'hdrfilm'; 'renderer' also writes .png"},
+    {"integrator", "stokes", "Plumb's light is not polarised"},
+    {"integrator", "depth", "use 'path' with --aov depth"},
+    {"integrator", "prb", estimates_light},
+    {"integrator", "prb_basic", estimates_light},
+    {"integrator", "prbvolpath", estimates_light},
+};
+
+constexpr Ignored ignored[] = {
+    {"integrator", "direct", "emitter_samples"},
+    {"integrator", "direct", "bsdf_samples"},
+    {"integrator", "direct", "shading_samples"},
+    {"integrator", "", "samples_per_pass"},
+    {"integrator", "", "timeout"},
+    {"integrator", "", "block_size"},
+    {"camera", "perspective", "focus_distance"},
+    {"camera", "", "shutter_open"},
+    {"camera", "", "shutter_close"},
+    {"film", "", "pixel_format"},
+    {"film", "", "component_format"},
+    {"film", "", "file_format"},
+    {"film", "", "banner"},
+    {"film", "", "compensate"},
+    {"sampler", "", "seed"},
+    {"sampler", "", "jitter"},
+    {"bsdf", "", "sample_visible"},
+    {"texture", "bitmap", "format"},
+    {"texture", "bitmap", "accel"},
+    {"emitter", "", "sampling_weight"},
+    {"emitter", "envmap", "mis_compensation"},
+};
+
+// Rows and presets that wait for plugins and parameters which are being written.
+constexpr Awaited awaited[] = {
+    {"integrator", "path_mis", "countPasses"},
+    {"integrator", "path_mis", "hideEmitters"},
+    {"camera", "orthographic"},
+    {"camera", "perspective", "fovAxis"},
+    {"camera", "perspective", "focalLengthMm"},
+    {"camera", "perspective", "principalPointOffsetX"},
+    {"camera", "perspective", "principalPointOffsetY"},
+    {"film", "hdrfilm", "cropOffsetX"}, // of the camera
+    {"film", "hdrfilm", "cropOffsetY"},
+    {"film", "hdrfilm", "cropWidth"},
+    {"film", "hdrfilm", "cropHeight"},
+    {"film", "hdrfilm", "sampleBorder"},
+    {"rfilter", "catmullrom"},
+    {"rfilter", "lanczos"},
+    {"shape", "ply"},
+    {"shape", "serialized"},
+    {"shape", "cube"},
+    {"shape", "cylinder"},
+    {"shape", "group"},
+    {"shape", "instance"},
+    {"shape", "obj", "smooth"},
+    {"shape", "obj", "faceNormals"},
+    {"shape", "obj", "flipV"},
+    {"shape", "obj", "flipNormals"},
+    {"shape", "sphere", "flipU"},
+    {"shape", "sphere", "flipNormals"},
+    {"shape", "rectangle", "flipNormals"},
+    {"shape", "disk", "flipNormals"},
+    {"bsdf", "thindielectric"},
+    {"bsdf", "conductor"},
+    {"bsdf", "plastic"},
+    {"bsdf", "roughplastic"},
+    {"bsdf", "principled"},
+    {"bsdf", "principledthin"},
+    {"bsdf", "mask"},
+    {"bsdf", "null"},
+    {"bsdf", "blend"},
+    {"bsdf", "bumpmap"},
+    {"bsdf", "roughconductor"}, // with exact Fresnel
+    {"bsdf", "roughdielectric"},
+    {"bsdf", "dielectric", "specularReflectance"},
+    {"bsdf", "dielectric", "specularTransmittance"},
+    {"bsdf", "normalmap", "useShadowing"},
+    {"bsdf", "normalmap", "flipInvalidNormals"},
+    {"texture", "bitmap"},
+    {"texture", "checkerboard"},
+    {"texture", "rawconstant"},
+    {"texture", "meshattribute"},
+    {"emitter", "spot"},
+    {"emitter", "projector"},
+    {"emitter", "environment", "scale"},
+    {"emitter", "environment", "toWorld"},
+    {"emitter", "environment", "columnOffset"},
+    {"emitter", "environment", "rowsAtPoles"},
+};
+
+constexpr Vocabulary mitsuba3 = {.name = "mitsuba3",
+                                 .tags = tags,
+                                 .types = types,
+                                 .params = params,
+                                 .presets = presets,
+                                 .refusals = refusals,
+                                 .ignored = ignored,
+                                 .complete = true,
+                                 .syntax = mitsuba_syntax,
+                                 .order = order_mitsuba,
+                                 .awaited = awaited};
+
+} // namespace
+
+bool is_mitsuba_scene(const Element& root)
+{
+    return root.tag == "scene" && root.attribute("version") && !root.attribute("dialect");
+}
+
+DialectChoice mitsuba_choice(const Element& root, const DialectWishes& wishes, Diagnostics& diagnostics)
+{
+    const Attribute& version = *root.attribute("version");
+    DialectChoice choice;
+    choice.dialect = Dialect::standard(DialectName::mitsuba3);
+    choice.dialect.reason = fmt::format("the file has version {}", version.value);
+    choice.dialect.emitters_absorb = wishes.emitters_absorb.value_or(false);
+    choice.dialect.mirrored_view = wishes.mirrored_view.value_or(false);
+    choice.dialect.environment_scale = wishes.environment_scale.value_or(1.f);
+    if (wishes.name)
+        diagnostics.error(
+            root.name_place(version),
+            fmt::format("--dialect {}: the attribute 'version' says that this is a scene of Mitsuba",
+                        to_string(*wishes.name)));
+    return choice;
+}
+
+const Vocabulary* mitsuba_vocabulary(const Element& root, Diagnostics& diagnostics)
+{
+    const Attribute& version = *root.attribute("version");
+    int major = 0;
+    const char* const end = version.value.data() + version.value.size();
+    const auto [rest, error] = std::from_chars(version.value.data(), end, major);
+    if (error != std::errc() || (rest != end && *rest != '.')) {
+        diagnostics.error(root.value_place(version),
+                          fmt::format("'{}' is not a version of Mitsuba, as '3.0.0' is", version.value));
+        return nullptr;
+    }
+    if (major >= 2 && major <= 3) return &mitsuba3;
+    diagnostics.error(
+        root.value_place(version),
+        fmt::format("scenes of Mitsuba {} are not supported; those of 2.x and 3.x are", version.value));
+    return nullptr;
+}
+
+} // namespace plumb
