@@ -40,14 +40,14 @@ std::string element_name(const Element& element, const Element& root)
 
 class TestBuilder {
 public:
-    TestBuilder(const Element& root, const LoadOptions& options, Diagnostics& diagnostics)
-        : root_(root), options_(options), diagnostics_(diagnostics)
+    TestBuilder(const Element& root, const RenderSettings& settings, Diagnostics& diagnostics)
+        : root_(root), settings_(settings), diagnostics_(diagnostics)
     {}
 
     TestFile build()
     {
         const Dialect neutral = Dialect::standard(DialectName::plumb); // no parameter of a BSDF depends on it
-        LoadContext context{diagnostics_, neutral, options_.lenient, {}};
+        LoadContext context{diagnostics_, neutral, settings_.scene.lenient, {}};
         if (!read_type()) return std::move(test_);
         SharedObjects shared(root_, context);
         read_parameters(context);
@@ -166,7 +166,7 @@ private:
     {
         if (!first_child(root_, "emitter")) return;
         const Dialect dialect = choose_dialect(root_, wishes(), diagnostics_).dialect;
-        LoadContext context{diagnostics_, dialect, options_.lenient, {}};
+        LoadContext context{diagnostics_, dialect, settings_.scene.lenient, {}};
         SharedObjects shared(root_, context);
         for (const Element& child : root_.children) {
             if (child.tag != "emitter") continue;
@@ -182,8 +182,8 @@ private:
 
     DialectWishes wishes() const
     {
-        return {options_.dialect, options_.emitters_absorb, options_.mirrored_view,
-                options_.environment_scale};
+        const SceneSettings& scene = settings_.scene;
+        return {scene.dialect, scene.emitters_absorb, scene.mirrored_view, scene.environment_scale};
     }
 
     // One kind in a file, and of a chi2test bsdfs.
@@ -229,11 +229,14 @@ private:
 
     void build_scene_of_test(const Element& element, const Dialect& dialect)
     {
-        LoadContext context{diagnostics_, dialect, options_.lenient, {}};
-        SceneParts parts = build_scene(element, options_, context);
+        LoadContext context{diagnostics_, dialect, settings_.scene.lenient, {}};
+        SceneBuilder builder(element, context);
+        SceneContents contents = builder.build_contents();
+        MethodAndView parts = builder.build_method_and_view(settings_.method, settings_.view);
         if (diagnostics_.has_errors()) return;
         const std::string name = fmt::format("{}, {}", element_name(element, root_), parts.integrator_type);
-        if (auto job = assemble(std::move(parts), options_, context))
+        auto scene = make_scene(std::move(contents), settings_.method.instruction_set, dialect);
+        if (auto job = assemble(std::move(scene), std::move(parts), context))
             test_.scenes.push_back({*std::move(job), dialect, name});
     }
 
@@ -282,7 +285,7 @@ private:
     }
 
     const Element& root_;
-    const LoadOptions& options_;
+    const RenderSettings& settings_;
     Diagnostics& diagnostics_;
     TestFile test_;
 };
@@ -299,14 +302,15 @@ bool check_root(const Element& root, Diagnostics& diagnostics)
 
 } // namespace
 
-TestFile load_test(const std::filesystem::path& path, const LoadOptions& options)
+TestFile load_test(const std::filesystem::path& path, const RenderSettings& settings)
 {
     Diagnostics diagnostics;
     auto document = parse_document(path, read_text(path), diagnostics);
     if (!document || !check_root(*document, diagnostics)) throw SceneError(diagnostics.all());
     const Expansion expansion =
-        expand(*std::move(document), {options.definitions.begin(), options.definitions.end()}, diagnostics);
-    TestFile test = TestBuilder(expansion.root, options, diagnostics).build();
+        expand(*std::move(document), {settings.scene.definitions.begin(), settings.scene.definitions.end()},
+               diagnostics);
+    TestFile test = TestBuilder(expansion.root, settings, diagnostics).build();
     auto found = in_file_order(diagnostics.all(), expansion.files);
     if (diagnostics.has_errors()) throw SceneError(std::move(found));
     test.warnings = std::move(found);
