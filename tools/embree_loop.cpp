@@ -193,7 +193,7 @@ int run(int argc, char** argv)
     }
     const LoadedScene loaded = load_scene(argv[1]);
     Triangles triangles;
-    for (const SceneObject& object : loaded.job.scene.objects()) {
+    for (const SceneObject& object : loaded.job.scene->objects()) {
         triangles.is_lamp = object.emitter != nullptr;
         object.shape->add_to(triangles);
     }

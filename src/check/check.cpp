@@ -32,8 +32,8 @@ class Checker {
 public:
     explicit Checker(const RenderJob& job)
         : job_(job),
-          scene_(job.scene),
-          size_(length(job.scene.bounds().size())),
+          scene_(*job.scene),
+          size_(length(job.scene->bounds().size())),
           sampler_(job.sampler->clone(samples))
     {}
 

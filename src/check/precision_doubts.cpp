@@ -61,7 +61,7 @@ std::optional<double> viewing_distance(const RenderJob& job)
         const Vec2f raster(place.x * static_cast<float>(resolution.x),
                            place.y * static_cast<float>(resolution.y));
         const Ray ray = job.camera->sample_ray(raster, Vec2f(0.5f)).ray;
-        if (const auto hit = job.scene.intersect(ray))
+        if (const auto hit = job.scene->intersect(ray))
             distances.push_back(static_cast<double>(length(hit->position - ray.origin)));
     }
     if (distances.empty()) return {};
@@ -89,7 +89,7 @@ std::optional<Doubt> doubt_of_view(const RenderJob& job)
     const double coordinate = largest_coordinate(Box3f(camera));
     const auto distance = viewing_distance(job);
     constexpr double in_a_surface = 1e-5; // of the scene's size: the camera sees nothing else from there
-    if (!distance || *distance < in_a_surface * size_of(job.scene.bounds())) return {};
+    if (!distance || *distance < in_a_surface * size_of(job.scene->bounds())) return {};
     if (!(*distance < fewest_steps_of_scene * step_at(coordinate))) return {};
     return Doubt{
         "",
@@ -112,12 +112,12 @@ std::optional<Doubt> doubt_of_object(const std::string& name, const Box3f& bound
 std::vector<Doubt> precision_doubts(const RenderJob& job)
 {
     std::vector<Doubt> doubts;
-    if (auto scene = doubt_of_scene(job.scene)) return {*std::move(scene)}; // and so is all that is in it
+    if (auto scene = doubt_of_scene(*job.scene)) return {*std::move(scene)}; // and so is all that is in it
     if (auto view = doubt_of_view(job)) doubts.push_back(*std::move(view));
-    for (const SceneObject& object : job.scene.objects())
+    for (const SceneObject& object : job.scene->objects())
         if (auto one = doubt_of_object(object.name, object.shape->bounds()))
             doubts.push_back(*std::move(one));
-    for (const Instance& instance : job.scene.instances())
+    for (const Instance& instance : job.scene->instances())
         if (auto one = doubt_of_object(instance.name, instance.bounds())) {
             doubts.push_back(*std::move(one));
             break; // many may stand there

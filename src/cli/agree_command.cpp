@@ -30,7 +30,7 @@ Estimate estimate(const EstimatorRequest& request, const Estimator& estimator, s
     RenderOptions how = render_options(request.settings, request.threads);
     how.seed += number; // independent pictures: independent seeds
     how.samples_per_pixel =
-        seconds > 0.0 ? samples_in(seconds, scene.job, how) : scene.job.sampler->samples_per_pixel();
+        seconds > 0.0 ? samples_in(seconds, scene.job, how) : render_samples(scene.job, how);
     ProgressDisplay display(request.quiet);
     const RenderState result =
         render(scene.job, how, [&](const Progress& progress) { display.show(progress); });

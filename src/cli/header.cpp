@@ -98,10 +98,10 @@ Metadata scene_header(const RenderRequest& request, const LoadedScene& scene)
     add("plumb:point", scene.dialect.point_takes_power ? "power" : "radiance");
     add("plumb:envmapFlipped", on_off(scene.dialect.environment_flipped));
     add("plumb:envmapScale", scene.dialect.environment_scale);
-    add("plumb:instructionSet", scene.job.scene.options().instruction_set);
-    add("plumb:embree", scene.job.scene.embree_version());
+    add("plumb:instructionSet", scene.job.scene->options().instruction_set);
+    add("plumb:embree", scene.job.scene->embree_version());
     add("plumb:processor", processor_maker());
-    for (auto& [name, ids] : id_tables(request.settings.view.aovs, scene.job.scene)) {
+    for (auto& [name, ids] : id_tables(request.settings.view.aovs, *scene.job.scene)) {
         for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = fmt::format("{} {}", i + 1, ids[i]);
         header.emplace_back("plumb:ids." + name, valid_utf8(lines_text(ids)));
     }

@@ -18,7 +18,7 @@ std::string point_text(const Vec3f& p)
 
 void log_facts(const SceneRequest& request, const LoadedScene& loaded)
 {
-    const Scene& scene = loaded.job.scene;
+    const Scene& scene = *loaded.job.scene;
     const Vec2i resolution = loaded.job.camera->resolution();
     const Box3f bounds = scene.bounds();
     const std::string instances =
@@ -28,7 +28,8 @@ void log_facts(const SceneRequest& request, const LoadedScene& loaded)
     if (!bounds.isEmpty())
         print_log(fmt::format("bounds: {} to {}", point_text(bounds.min), point_text(bounds.max)));
     print_log(fmt::format("image: {} x {} pixels, {} samples each, seed {}", resolution.x, resolution.y,
-                          loaded.job.sampler->samples_per_pixel(), request.settings.samples.seed));
+                          render_samples(loaded.job, render_options(request.settings, 0)),
+                          request.settings.samples.seed));
     print_log(fmt::format("integrator: {}; sampler: {}", loaded.integrator, loaded.sampler));
     print_log(fmt::format(
         "dialect settings: emitters {}, mirror {}, point lights in {}, environment images {}times {}",
@@ -52,7 +53,7 @@ LoadedScene load_and_log(const SceneRequest& request)
         throw Error(fmt::format("scene file '{}' does not exist{}", request.scene,
                                 find_named_file({}, request.scene).way_out));
     }
-    LoadedScene scene = load_scene(path, load_options(request));
+    LoadedScene scene = load_scene(path, request.settings);
     if (request.quiet) return scene;
     for (const Diagnostic& warning : scene.warnings) print_log(warning);
     print_log(fmt::format("dialect: {} ({})", to_string(scene.dialect.name), scene.dialect.reason));

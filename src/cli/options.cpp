@@ -214,7 +214,6 @@ Options parse_options(std::vector<std::string> words)
                 std::none_of(sorted.given.begin(), sorted.given.end(),
                              [row](const auto& given) { return given.first == row; }))
                 throw UsageError(fmt::format("replay needs {} {}", row->names, row->value));
-    options.one_pixel = options.verb == Verb::replay;
     if (options.verb == Verb::render) settle_state_file(options);
     if (options.verb == Verb::merge && options.outputs.empty() && options.checkpoint.file.empty())
         throw UsageError(

@@ -45,7 +45,8 @@ std::vector<Racer> load_racers(const RaceRequest& request)
 // sequences of low discrepancy.
 std::uint64_t samples_of_a_picture(const std::vector<Racer>& racers, const RaceRequest& request)
 {
-    if (!request.settings.stop.seconds) return racers.front().scene.job.sampler->samples_per_pixel();
+    if (!request.settings.stop.seconds)
+        return render_samples(racers.front().scene.job, render_options(request.settings, request.threads));
     double seconds = 0.0;
     for (const Racer& racer : racers)
         seconds += seconds_per_sample(racer.scene.job, render_options(request.settings, request.threads));

@@ -40,7 +40,9 @@ std::vector<std::string> default_outputs(const RenderRequest& request, const Loa
     const bool fixed = request.settings.samples.per_pixel ||
                        !(request.settings.stop.seconds || request.settings.stop.relative_error);
     const std::string name =
-        fixed ? fmt::format("{}_{}", stem, scene.job.sampler->samples_per_pixel()) : stem;
+        fixed ? fmt::format("{}_{}", stem,
+                            render_samples(scene.job, render_options(request.settings, request.threads)))
+              : stem;
     return {name + ".exr", name + ".png"};
 }
 

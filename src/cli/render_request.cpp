@@ -24,30 +24,10 @@ std::string option_text(const Row& row, const RenderSettings& settings)
 
 } // namespace
 
-LoadOptions load_options(const SceneRequest& request)
-{
-    const RenderSettings& settings = request.settings;
-    LoadOptions load;
-    load.dialect = settings.scene.dialect;
-    load.emitters_absorb = settings.scene.emitters_absorb;
-    load.mirrored_view = settings.scene.mirrored_view;
-    load.environment_scale = settings.scene.environment_scale;
-    load.definitions = settings.scene.definitions;
-    load.integrator = settings.method.integrator;
-    load.sampler = settings.method.sampler;
-    load.samples_per_pixel = settings.samples.per_pixel;
-    load.resolution = settings.view.size;
-    load.instruction_set = settings.method.instruction_set;
-    load.lenient = settings.scene.lenient;
-    if (const auto& crop = settings.view.crop)
-        load.kept_pixels = static_cast<std::uint64_t>(crop->width) * static_cast<std::uint64_t>(crop->height);
-    if (request.one_pixel) load.kept_pixels = 1;
-    return load;
-}
-
 RenderOptions render_options(const RenderSettings& settings, int threads)
 {
     RenderOptions options;
+    options.samples_per_pixel = settings.samples.per_pixel.value_or(0);
     options.seed = settings.samples.seed;
     options.threads = threads;
     options.crop = settings.view.crop;

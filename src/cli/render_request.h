@@ -13,14 +13,12 @@
 
 namespace plumb {
 
-struct LoadOptions;
 struct RenderOptions;
 
 // A scene to be loaded.
 struct SceneRequest {
     std::string scene; // file
     RenderSettings settings;
-    bool one_pixel = false; // no more of the picture must fit into memory
     bool quiet = false;
     bool verbose = false;
 };
@@ -56,8 +54,7 @@ struct RenderRequest : SceneRequest {
     std::string typed; // the words of the command line, quoted for a shell: " s.xml --seed 7"
 };
 
-// The settings in the words of the loader and of the renderer.
-LoadOptions load_options(const SceneRequest& request);
+// The settings in the words of the renderer.
 RenderOptions render_options(const RenderSettings& settings, int threads);
 
 // " --seed 7 --define 'a=b c'": the options that make these settings, quoted for a shell.

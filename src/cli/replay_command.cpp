@@ -29,9 +29,12 @@ std::string_view kind_text(PathEvent::Kind kind)
 
 int replay_command(const ReplayRequest& request)
 {
-    const LoadedScene scene = load_and_log(request);
     const Vec2i pixel = request.pixel;
-    const ReplayedSample sample = replay(scene.job, request.settings.samples.seed, pixel, request.sample);
+    SceneRequest one_pixel = request; // no more of the image must fit into memory
+    one_pixel.settings.view.crop = PixelRect{pixel.x, pixel.y, 1, 1};
+    const LoadedScene scene = load_and_log(one_pixel);
+    const ReplayedSample sample =
+        replay(scene.job, render_options(request.settings, 0), pixel, request.sample);
 
     print_output(fmt::format("sample {} of pixel {},{}, seed {}, integrator {}\n", request.sample, pixel.x,
                              pixel.y, request.settings.samples.seed, scene.integrator));

@@ -134,12 +134,12 @@ Report make_report(const RenderRequest& request, const LoadedScene& scene, const
     report.seed = request.settings.samples.seed;
     report.resolution = scene.job.camera->resolution();
     report.crop = request.settings.view.crop;
-    report.triangles = scene.job.scene.triangle_count();
-    report.memory = scene.job.scene.memory();
+    report.triangles = scene.job.scene->triangle_count();
+    report.memory = scene.job.scene->memory();
     report.texture_bytes = scene.texture_bytes;
     const PixelRect& window = state.film.window();
     report.is_black = is_black(state.film);
-    report.lights = scene.job.scene.emitters().size();
+    report.lights = scene.job.scene->emitters().size();
     report.film_bytes = Film::bytes_per_pixel(state.film.layers()) * static_cast<std::uint64_t>(window.width) *
                         static_cast<std::uint64_t>(window.height);
     report.parse_seconds = scene.parse_seconds;
@@ -148,8 +148,8 @@ Report make_report(const RenderRequest& request, const LoadedScene& scene, const
     report.rays = state.rays;
     report.evidence = std::move(evidence);
     report.threads = render_threads(render_options(request.settings, request.threads));
-    report.instruction_set = scene.job.scene.options().instruction_set;
-    report.embree_version = scene.job.scene.embree_version();
+    report.instruction_set = scene.job.scene->options().instruction_set;
+    report.embree_version = scene.job.scene->embree_version();
     return report;
 }
 

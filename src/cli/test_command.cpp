@@ -92,9 +92,6 @@ void log_warnings(const TestFile& file)
 // All files are read before the first test runs. What is wrong with them is thrown together.
 std::vector<FileReport> load_files(const TestRequest& request)
 {
-    SceneRequest scene;
-    scene.settings = request.settings;
-    const LoadOptions load = load_options(scene);
     std::vector<FileReport> reports;
     std::vector<Diagnostic> problems;
     bool broken = false;
@@ -103,7 +100,7 @@ std::vector<FileReport> load_files(const TestRequest& request)
         try {
             if (!std::filesystem::exists(path, ignored))
                 throw Error(fmt::format("test file '{}' does not exist", path));
-            reports.push_back({path, load_test(path, load), {}});
+            reports.push_back({path, load_test(path, request.settings), {}});
         } catch (const SceneError& error) {
             broken = true;
             problems.insert(problems.end(), error.diagnostics().begin(), error.diagnostics().end());

@@ -110,7 +110,7 @@ TestRun test_scene_mean(const TestFile& file, const RenderJob& job, double refer
 {
     const Vec2f size(job.camera->resolution());
     const Seen seen = gather(file, options, [&] {
-        return [&, tracer = Tracer(job.scene)](Sampler& sampler) mutable {
+        return [&, tracer = Tracer(*job.scene)](Sampler& sampler) mutable {
             const Vec2f u_film = sampler.next_2d();
             const Vec2f u_lens = sampler.next_2d();
             const CameraRay camera_ray =

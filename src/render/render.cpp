@@ -52,7 +52,7 @@ SampleTaken take_sample(const RenderJob& job, const FilmEdge& edge, Tracer& trac
 // What one thread needs and gathers.
 struct Worker {
     Worker(const RenderJob& job, std::uint64_t total, bool has_layers)
-        : tracer(job.scene, nullptr, has_layers ? &first : nullptr), sampler(job.sampler->clone(total))
+        : tracer(*job.scene, nullptr, has_layers ? &first : nullptr), sampler(job.sampler->clone(total))
     {}
     Worker(const Worker&) = delete; // the tracer points to it
     Worker& operator=(const Worker&) = delete;
@@ -201,7 +201,7 @@ bool Rendering::take(const SampleSet& wanted, const ProgressReport& progress, co
     Reporter reporter(progress, (wanted & state_.taken).count(), wanted.count());
     oneapi::tbb::enumerable_thread_specific<Worker> workers(
         [&] { return Worker(job_, total, !state_.film.layers().empty()); });
-    const AovMeter meter(options_.aovs, job_.scene, *job_.camera);
+    const AovMeter meter(options_.aovs, *job_.scene, *job_.camera);
     const FilmEdge edge(*job_.filter, *job_.camera);
     std::atomic<bool> paused = false;
 
@@ -259,20 +259,21 @@ RenderState render(const RenderJob& job, const RenderOptions& options, const Pro
     return std::move(rendering).finish();
 }
 
-ReplayedSample replay(const RenderJob& job, std::uint64_t seed, Vec2i pixel, std::uint64_t sample_index)
+ReplayedSample replay(const RenderJob& job, const RenderOptions& options, Vec2i pixel,
+                      std::uint64_t sample_index)
 {
     const Vec2i size = job.camera->resolution();
     if (pixel.x < 0 || pixel.y < 0 || pixel.x >= size.x || pixel.y >= size.y)
         throw Error(fmt::format("pixel {},{} is not inside the image of {}x{} pixels", pixel.x, pixel.y,
                                 size.x, size.y));
-    const std::uint64_t total = job.sampler->samples_per_pixel();
+    const std::uint64_t total = render_samples(job, options);
     check_total(job, sample_index + 1, total);
     const FlushDenormals flush;
     ReplayedSample replayed;
-    Tracer tracer(job.scene, &replayed.log);
+    Tracer tracer(*job.scene, &replayed.log);
     const std::unique_ptr<Sampler> sampler = job.sampler->clone(total);
     const FilmEdge edge(*job.filter, *job.camera);
-    const SampleTaken sample = take_sample(job, edge, tracer, *sampler, seed, pixel, sample_index);
+    const SampleTaken sample = take_sample(job, edge, tracer, *sampler, options.seed, pixel, sample_index);
     Film judge({pixel.x, pixel.y, 1, 1}, size.x, size.y);
     replayed.value = sample.radiance;
     replayed.raster = sample.raster;

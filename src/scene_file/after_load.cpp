@@ -78,7 +78,7 @@ void warn_of_idle_suns(const Element& root, const RenderJob& job, const Dialect&
 {
     if (!job.integrator->needs_lamps()) return;
     std::vector<const Emitter*> suns;
-    for (const Emitter* emitter : job.scene.emitters())
+    for (const Emitter* emitter : job.scene->emitters())
         if (is_sun(*emitter)) suns.push_back(emitter);
     std::size_t index = 0;
     visit_all(root, [&](const Element& element) {
@@ -86,7 +86,7 @@ void warn_of_idle_suns(const Element& root, const RenderJob& job, const Dialect&
             return;
         const Emitter& sun = *suns[index++];
         const auto light = sun.sample({}, 0.5, Vec2f(0.5f), Measure::best);
-        if (!light || !(sun.power() > 0.f) || lights_anything(job.scene, light->wi)) return;
+        if (!light || !(sun.power() > 0.f) || lights_anything(*job.scene, light->wi)) return;
         diagnostics.warning(
             element.place(),
             fmt::format("this light reaches the front of no surface, so it lights nothing: it goes along "

@@ -14,6 +14,7 @@
 
 #include <chrono>
 #include <future>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -40,17 +41,17 @@ std::vector<InputFile> input_files(const Expansion& expansion, const std::vector
     return files;
 }
 
-// Of the bytes of every file, and of what the command line and the dialect make of them.
+// Of the bytes of every file, and of what settings and dialect make of them.
 std::string input_hash(const std::vector<InputFile>& files, const Dialect& dialect,
-                       const LoadOptions& options)
+                       const SceneSettings& settings, const MethodSettings& method, const ViewSettings& view)
 {
     std::string all;
     const auto add = [&all](std::string_view text) { all += fmt::format("{}:{}", text.size(), text); };
     for (const InputFile& file : files) add(file.hash);
-    for (const auto& [name, value] : options.definitions) add(fmt::format("{}={}", name, value));
-    add(options.integrator.value_or(""));
-    add(options.sampler.value_or(""));
-    if (options.resolution) add(fmt::format("{}x{}", options.resolution->x, options.resolution->y));
+    for (const auto& [name, value] : settings.definitions) add(fmt::format("{}={}", name, value));
+    add(method.integrator.value_or(""));
+    add(method.sampler.value_or(""));
+    if (view.size) add(fmt::format("{}x{}", view.size->x, view.size->y));
     add(fmt::format("{} {} {} {} {}", dialect.mirrored_view, dialect.emitters_absorb,
                     dialect.point_takes_power, dialect.environment_flipped, dialect.environment_scale));
     return sha256(all);
@@ -80,62 +81,132 @@ bool check_root(const Element& root, Diagnostics& diagnostics)
 
 } // namespace
 
-LoadedScene load_scene(const std::filesystem::path& path, const LoadOptions& options)
-{
-    const auto start = Clock::now();
+struct SceneFile::Impl {
+    Impl(const std::filesystem::path& path, SceneSettings scene_settings)
+        : settings(std::move(scene_settings)),
+          expansion(read(path)),
+          wishes{settings.dialect, settings.emitters_absorb, settings.mirrored_view,
+                 settings.environment_scale},
+          choice(is_mitsuba ? mitsuba_choice(expansion.root, wishes, diagnostics)
+                            : choose_dialect(expansion.root, wishes, diagnostics)),
+          root(arranged()),
+          context{diagnostics, choice.dialect, settings.lenient, {}},
+          builder(root, context)
+    {
+        context.vocabulary = words;
+        seconds = seconds_since(start);
+    }
 
     // The text becomes one tree.
-    Diagnostics diagnostics;
-    auto document = parse_document(path, read_text(path), diagnostics);
-    if (!document || !check_root(*document, diagnostics)) fail(diagnostics, {});
-    const Definitions definitions(options.definitions.begin(), options.definitions.end());
-    const bool is_mitsuba = is_mitsuba_scene(*document);
-    Expansion expansion = is_mitsuba ? expand_mitsuba(*std::move(document), definitions, diagnostics)
-                                     : expand(*std::move(document), definitions, diagnostics);
+    Expansion read(const std::filesystem::path& path)
+    {
+        auto document = parse_document(path, read_text(path), diagnostics);
+        if (!document || !check_root(*document, diagnostics)) fail(diagnostics, {});
+        const Definitions definitions(settings.definitions.begin(), settings.definitions.end());
+        is_mitsuba = is_mitsuba_scene(*document);
+        return is_mitsuba ? expand_mitsuba(*std::move(document), definitions, diagnostics)
+                          : expand(*std::move(document), definitions, diagnostics);
+    }
+
+    // In our own words.
+    Element arranged()
+    {
+        words = is_mitsuba ? mitsuba_vocabulary(expansion.root, diagnostics)
+                           : &nori_vocabulary(choice.dialect.name);
+        if (!words) fail(diagnostics, expansion.files);
+        const Readings readings(choice.dialect, wishes);
+        return arrange(std::move(expansion.root), *words,
+                       {.overrides = readings.presets(), .lenient = settings.lenient}, diagnostics);
+    }
+
+    const Clock::time_point start = Clock::now();
+    const SceneSettings settings;
+    Diagnostics diagnostics; // between calls of load(): of the tree, and of the scene if there is one
+    bool is_mitsuba = false;
+    const Vocabulary* words = nullptr;
+    Expansion expansion; // its root only until it is arranged
+    const DialectWishes wishes;
+    const DialectChoice choice;
+    const Element root;
+    LoadContext context;
+    SceneBuilder builder;
+    double seconds = 0.0; // of reading the tree, until the first load() has told
+    std::shared_ptr<const Scene> scene;
+    std::vector<InputFile> inputs; // of the scene
+};
+
+SceneFile::SceneFile(const std::filesystem::path& path, const SceneSettings& settings)
+    : path_(path), impl_(std::make_unique<Impl>(path, settings))
+{}
+
+SceneFile::~SceneFile() = default;
+
+const SceneSettings& SceneFile::settings() const
+{
+    return impl_->settings;
+}
+
+LoadedScene SceneFile::load(const MethodSettings& method, const ViewSettings& view)
+{
+    Impl& file = *impl_;
+    Diagnostics& diagnostics = file.diagnostics;
+    const Diagnostics before = diagnostics;
+    try {
+        return load_with(method, view);
+    } catch (...) {
+        diagnostics = before;
+        throw;
+    }
+}
+
+LoadedScene SceneFile::load_with(const MethodSettings& method, const ViewSettings& view)
+{
+    const auto start = Clock::now();
+    Impl& file = *impl_;
+    Diagnostics& diagnostics = file.diagnostics;
 
     // The tree becomes objects.
-    const DialectWishes wishes{options.dialect, options.emitters_absorb, options.mirrored_view,
-                               options.environment_scale};
-    const DialectChoice choice = is_mitsuba ? mitsuba_choice(expansion.root, wishes, diagnostics)
-                                            : choose_dialect(expansion.root, wishes, diagnostics);
-    const Dialect& dialect = choice.dialect;
-    const Vocabulary* const words =
-        is_mitsuba ? mitsuba_vocabulary(expansion.root, diagnostics) : &nori_vocabulary(dialect.name);
-    if (!words) fail(diagnostics, expansion.files);
-    const Readings readings(dialect, wishes);
-    expansion.root = arrange(std::move(expansion.root), *words,
-                             {.overrides = readings.presets(), .lenient = options.lenient}, diagnostics);
-    LoadContext context{diagnostics, dialect, options.lenient, {}};
-    context.vocabulary = words;
-    SceneParts parts = build_scene(expansion.root, options, context);
-    if (diagnostics.has_errors()) fail(diagnostics, expansion.files);
+    const bool is_new = !file.scene || file.scene->options().instruction_set != method.instruction_set;
+    SceneContents contents;
+    if (is_new) contents = file.builder.build_contents();
+    const Diagnostics of_scene = diagnostics;
+    MethodAndView parts = file.builder.build_method_and_view(method, view);
+    if (diagnostics.has_errors()) fail(diagnostics, file.expansion.files);
     // Meanwhile; in another thread if there is one to be had.
-    std::future<std::vector<InputFile>> inputs_read =
-        std::async(std::launch::async | std::launch::deferred,
-                   [&expansion, files = context.files] { return input_files(expansion, files); });
-    const double parse_seconds = seconds_since(start);
+    std::future<std::vector<InputFile>> inputs_read;
+    if (file.inputs.empty())
+        inputs_read =
+            std::async(std::launch::async | std::launch::deferred,
+                       [&file, files = file.context.files] { return input_files(file.expansion, files); });
+    const double parse_seconds = std::exchange(file.seconds, 0.0) + seconds_since(start);
 
     // The objects become a scene.
     const auto build_start = Clock::now();
     std::string integrator = std::move(parts.integrator_type);
     std::string sampler = std::move(parts.sampler_type);
-    std::optional<RenderJob> job = assemble(std::move(parts), options, context);
-    std::vector<InputFile> inputs = inputs_read.get();
-    if (!job) fail(diagnostics, expansion.files);
-    warn_of_open_readings(expansion.root, choice, wishes, &job->scene, diagnostics);
-    warn_of_idle_suns(expansion.root, *job, dialect, diagnostics);
-    std::string hash = input_hash(inputs, dialect, options);
+    if (is_new) file.scene = make_scene(std::move(contents), method.instruction_set, file.choice.dialect);
+    std::optional<RenderJob> job = assemble(file.scene, std::move(parts), file.context);
+    if (inputs_read.valid()) file.inputs = inputs_read.get();
+    if (!job) fail(std::exchange(diagnostics, of_scene), file.expansion.files);
+    warn_of_open_readings(file.root, file.choice, file.wishes, job->scene.get(), diagnostics);
+    warn_of_idle_suns(file.root, *job, file.choice.dialect, diagnostics);
+    const Diagnostics all = std::exchange(diagnostics, of_scene);
     return {.job = *std::move(job),
-            .dialect = dialect,
+            .dialect = file.choice.dialect,
             .integrator = std::move(integrator),
             .sampler = std::move(sampler),
-            .inputs = std::move(inputs),
-            .input_hash = std::move(hash),
-            .changed_readings = readings_changed_since_1(expansion.root, dialect),
-            .texture_bytes = context.texture_bytes,
-            .warnings = in_file_order(diagnostics.all(), expansion.files),
+            .inputs = file.inputs,
+            .input_hash = input_hash(file.inputs, file.choice.dialect, file.settings, method, view),
+            .changed_readings = readings_changed_since_1(file.root, file.choice.dialect),
+            .texture_bytes = file.context.texture_bytes,
+            .warnings = in_file_order(all.all(), file.expansion.files),
             .parse_seconds = parse_seconds,
             .build_seconds = seconds_since(build_start)};
+}
+
+LoadedScene load_scene(const std::filesystem::path& path, const RenderSettings& settings)
+{
+    return SceneFile(path, settings.scene).load(settings.method, settings.view);
 }
 
 } // namespace plumb

@@ -41,14 +41,14 @@ std::string element_name(const Element& element, const Element& root)
 
 class TestBuilder {
 public:
-    TestBuilder(const Element& root, const LoadOptions& options, Diagnostics& diagnostics)
-        : root_(root), options_(options), diagnostics_(diagnostics)
+    TestBuilder(const Element& root, const RenderSettings& settings, Diagnostics& diagnostics)
+        : root_(root), settings_(settings), diagnostics_(diagnostics)
     {}
 
     TestFile build()
     {
         const Dialect neutral = Dialect::standard(DialectName::plumb); // no parameter of a BSDF depends on it
-        LoadContext context{diagnostics_, neutral, options_.lenient, {}};
+        LoadContext context{diagnostics_, neutral, settings_.scene.lenient, {}};
         if (!read_type()) return std::move(test_);
         SharedObjects shared(root_, context);
         read_parameters(context);
@@ -168,7 +168,7 @@ private:
         if (!first_child(root_, "emitter")) return;
         const Dialect dialect = choose_dialect(root_, wishes(), diagnostics_).dialect;
         const Element root = arrange(root_, dialect, wishes(), diagnostics_);
-        LoadContext context{diagnostics_, dialect, options_.lenient, {}};
+        LoadContext context{diagnostics_, dialect, settings_.scene.lenient, {}};
         context.vocabulary = &nori_vocabulary(dialect.name);
         SharedObjects shared(root, context);
         for (const Element& child : root.children) {
@@ -185,8 +185,8 @@ private:
 
     DialectWishes wishes() const
     {
-        return {options_.dialect, options_.emitters_absorb, options_.mirrored_view,
-                options_.environment_scale};
+        const SceneSettings& scene = settings_.scene;
+        return {scene.dialect, scene.emitters_absorb, scene.mirrored_view, scene.environment_scale};
     }
 
     // One kind in a file, and of a chi2test bsdfs.
@@ -233,12 +233,15 @@ private:
     void build_scene_of_test(const Element& element, const Dialect& dialect)
     {
         const Element root = arrange(element, dialect, wishes(), diagnostics_);
-        LoadContext context{diagnostics_, dialect, options_.lenient, {}};
+        LoadContext context{diagnostics_, dialect, settings_.scene.lenient, {}};
         context.vocabulary = &nori_vocabulary(dialect.name);
-        SceneParts parts = build_scene(root, options_, context);
+        SceneBuilder builder(root, context);
+        SceneContents contents = builder.build_contents();
+        MethodAndView parts = builder.build_method_and_view(settings_.method, settings_.view);
         if (diagnostics_.has_errors()) return;
         const std::string name = fmt::format("{}, {}", element_name(element, root_), parts.integrator_type);
-        if (auto job = assemble(std::move(parts), options_, context))
+        auto scene = make_scene(std::move(contents), settings_.method.instruction_set, dialect);
+        if (auto job = assemble(std::move(scene), std::move(parts), context))
             test_.scenes.push_back({*std::move(job), dialect, name});
     }
 
@@ -286,7 +289,7 @@ private:
     }
 
     const Element& root_;
-    const LoadOptions& options_;
+    const RenderSettings& settings_;
     Diagnostics& diagnostics_;
     TestFile test_;
 };
@@ -303,14 +306,15 @@ bool check_root(const Element& root, Diagnostics& diagnostics)
 
 } // namespace
 
-TestFile load_test(const std::filesystem::path& path, const LoadOptions& options)
+TestFile load_test(const std::filesystem::path& path, const RenderSettings& settings)
 {
     Diagnostics diagnostics;
     auto document = parse_document(path, read_text(path), diagnostics);
     if (!document || !check_root(*document, diagnostics)) throw SceneError(diagnostics.all());
     const Expansion expansion =
-        expand(*std::move(document), {options.definitions.begin(), options.definitions.end()}, diagnostics);
-    TestFile test = TestBuilder(expansion.root, options, diagnostics).build();
+        expand(*std::move(document), {settings.scene.definitions.begin(), settings.scene.definitions.end()},
+               diagnostics);
+    TestFile test = TestBuilder(expansion.root, settings, diagnostics).build();
     auto found = in_file_order(diagnostics.all(), expansion.files);
     if (diagnostics.has_errors()) throw SceneError(std::move(found));
     test.warnings = std::move(found);

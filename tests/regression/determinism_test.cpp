@@ -98,7 +98,7 @@ TEST_CASE("a replayed sample is the sample that was rendered", "[regression][det
 
     Film film(*options.crop, 53, 41);
     for (std::uint64_t index = 0; index < 20; ++index) {
-        const ReplayedSample sample = replay(loaded.job, 9, pixel, index);
+        const ReplayedSample sample = replay(loaded.job, options, pixel, index);
         CHECK_FALSE(sample.log.empty());
         REQUIRE(film.add(pixel, sample.value, sample.weight) == Verdict::accepted);
     }
@@ -116,6 +116,6 @@ TEST_CASE("render refuses options that make no sense", "[regression][determinism
     options.samples_per_pixel = film_max_samples + 1;
     CHECK_THROWS_WITH(render(loaded.job, options),
                       "samples per pixel must be from 1 to 67108864, not 67108865");
-    CHECK_THROWS_WITH(replay(loaded.job, 0, {53, 0}, 0),
+    CHECK_THROWS_WITH(replay(loaded.job, {}, {53, 0}, 0),
                       "pixel 53,0 is not inside the image of 53x41 pixels");
 }

@@ -71,11 +71,11 @@ enum class Objects { all, emitters };
 // For each axis, where surfaces of the objects are: the sides of their boxes, and the middle.
 std::vector<Vec3d> moves_to_zero(const std::filesystem::path& scene_file, Objects which)
 {
-    LoadOptions options;
-    options.definitions["move"] = "0,0,0";
+    RenderSettings options;
+    options.scene.definitions["move"] = "0,0,0";
     const LoadedScene scene = load_scene(scene_file, options);
     std::set<double> places[3];
-    for (const SceneObject& object : scene.job.scene.objects()) {
+    for (const SceneObject& object : scene.job.scene->objects()) {
         if (which == Objects::emitters && !object.emitter) continue;
         const Box3f box = object.shape->bounds();
         for (int axis = 0; axis < 3; ++axis) {

@@ -56,8 +56,8 @@ const std::array cases = {
 
 LoadedScene load_with(const Case& one, const std::string& sampler)
 {
-    LoadOptions options;
-    options.sampler = sampler;
+    RenderSettings options;
+    options.method.sampler = sampler;
     return test::load_text(one.scene, options);
 }
 

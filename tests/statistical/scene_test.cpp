@@ -34,7 +34,7 @@ constexpr const char* lamps = R"(
 TEST_CASE("each emitter is chosen as often as the density of its samples says", "[statistical][scene]")
 {
     const LoadedScene loaded = test::load_text(lamps);
-    const Scene& scene = loaded.job.scene;
+    const Scene& scene = *loaded.job.scene;
     REQUIRE(scene.emitters().size() == 5);
     // Every lamp can be seen from here, so that no sample is refused, but half of the environment's where a normal is:
     // those below the horizon.
@@ -73,7 +73,7 @@ TEST_CASE("each emitter is chosen as often as the density of its samples says", 
 TEST_CASE("what a ray sees has the density with which it would have been sampled", "[statistical][scene]")
 {
     const LoadedScene loaded = test::load_text(lamps);
-    const Scene& scene = loaded.job.scene;
+    const Scene& scene = *loaded.job.scene;
     test::TestRandom random(4);
     int compared = 0;
     for (int i = 0; i < 4000; ++i) {

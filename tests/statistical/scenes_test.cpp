@@ -19,9 +19,9 @@ const std::filesystem::path root = PLUMB_SOURCE_DIR;
 
 LoadedScene load_small(const std::string& scene, const std::string& integrator)
 {
-    LoadOptions options;
-    options.integrator = integrator;
-    options.resolution = Vec2i(24, 18);
+    RenderSettings options;
+    options.method.integrator = integrator;
+    options.view.size = Vec2i(24, 18);
     return load_scene(root / "scenes" / scene, options);
 }
 

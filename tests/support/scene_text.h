@@ -10,14 +10,14 @@
 
 namespace plumb::test {
 
-inline LoadedScene load_text(const std::string& xml, const LoadOptions& options = {})
+inline LoadedScene load_text(const std::string& xml, const RenderSettings& options = {})
 {
     const TempDirectory directory;
     return load_scene(directory.write("scene.xml", xml), options);
 }
 
 // What loading complains of.
-inline std::string errors(const std::string& xml, const LoadOptions& options = {})
+inline std::string errors(const std::string& xml, const RenderSettings& options = {})
 {
     try {
         load_text(xml, options);

@@ -76,7 +76,7 @@ LoadedScene load(const std::string& first, const std::string& second, const std:
 
 Coincidences coincidences(const std::string& first, const std::string& second)
 {
-    return find_coincidences(load(first, second).job.scene.objects());
+    return find_coincidences(load(first, second).job.scene->objects());
 }
 
 std::string texts(const LoadedScene& scene)
@@ -166,7 +166,7 @@ TEST_CASE("equal spheres coincide, and others do not", "[unit][coincidence]")
     };
     const auto found = [&](const std::string& a, const std::string& b) {
         return find_coincidences(
-                   load_text(start + a + sphere("9,9,9", "0.5") + b + "</scene>").job.scene.objects())
+                   load_text(start + a + sphere("9,9,9", "0.5") + b + "</scene>").job.scene->objects())
             .found;
     };
     const auto equal = found(sphere("1,2,3", "0.7"), sphere("1,2,3", "0.7"));
@@ -253,7 +253,7 @@ TEST_CASE("the scenes that come with us leave no doubt about coincident surfaces
             if (text.find("<suite") != text.npos || text.find("<test") != text.npos) continue;
             CAPTURE(entry.path());
             const LoadedScene scene = load_scene(entry.path());
-            CHECK(find_coincidences(scene.job.scene.objects()).is_complete);
+            CHECK(find_coincidences(scene.job.scene->objects()).is_complete);
             for (const Doubt& doubt : find_doubts(scene.job))
                 CHECK_THAT(doubt.text, !ContainsSubstring("32-bit floats") && !ContainsSubstring("coincide"));
         }

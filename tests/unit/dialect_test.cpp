@@ -45,7 +45,7 @@ std::string whole(const std::string& body, const std::string& integrator = path_
     return "<scene>" + integrator + test::camera + body + "</scene>";
 }
 
-std::string loading_warnings(const std::string& xml, const LoadOptions& options = {})
+std::string loading_warnings(const std::string& xml, const RenderSettings& options = {})
 {
     std::string text;
     for (const Diagnostic& warning : test::load_text(xml, options).warnings) text += warning.text() + "\n";
@@ -282,8 +282,8 @@ TEST_CASE("a sphere with path_mis may be eth's", "[unit][dialect]")
                ContainsSubstring("'sphere' with 'path_mis'") && ContainsSubstring("eth files") &&
                    ContainsSubstring("it is read as plumb; for eth the view is mirrored (--mirror on)") &&
                    ContainsSubstring("--dialect eth") && !ContainsSubstring("lamp"));
-    LoadOptions closed;
-    closed.mirrored_view = false;
+    RenderSettings closed;
+    closed.scene.mirrored_view = false;
     CHECK(loading_warnings(xml, closed).empty());
     CHECK(loading_warnings("<scene dialect='plumb'>" + xml.substr(7)).empty());
     CHECK(loading_warnings(whole(sphere, "<integrator type='path_mats'/>")).empty());
@@ -298,7 +298,7 @@ TEST_CASE("warnings name what would change this picture, with numbers", "[unit][
     write_image(directory / "map.exr", map);
     const std::string around =
         "<emitter type='environment'><string name='filename' value='map.exr'/></emitter>";
-    const auto load = [&](const std::string& body, const LoadOptions& options = {}) {
+    const auto load = [&](const std::string& body, const RenderSettings& options = {}) {
         const LoadedScene loaded = load_scene(directory.write("scene.xml", body), options);
         std::string text;
         for (const Diagnostic& warning : loaded.warnings) text += warning.text() + "\n";
@@ -321,8 +321,8 @@ TEST_CASE("warnings name what would change this picture, with numbers", "[unit][
     const auto [two, two_text] = load(whole(around + point, nee));
     CHECK((two.environment_scale == 1.f / 255.f && two.environment_flipped));
     CHECK_THAT(two_text, ContainsSubstring("divided by 255: mean 0.002, not 0.5 (--envmap-scale 1"));
-    LoadOptions scaled;
-    scaled.environment_scale = 1.f;
+    RenderSettings scaled;
+    scaled.scene.environment_scale = 1.f;
     CHECK(load(whole(around + point, nee), scaled).second.empty());
     // Without a map nothing is said of it.
     CHECK(load(whole(point, nee)).second.empty());

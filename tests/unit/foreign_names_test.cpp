@@ -102,8 +102,8 @@ TEST_CASE("scenes and options with foreign names are told what to write", "[unit
             start +
             "<mesh type='sphere'><bsdf type='diffuse'><rgb name='albedo' value='1'/></bsdf></mesh></scene>"),
         ContainsSubstring("error: <rgb> is <color> here\n"));
-    LoadOptions options;
-    options.integrator = "mipath";
+    RenderSettings options;
+    options.method.integrator = "mipath";
     CHECK(errors(start + "</scene>", options) ==
           "error: --integrator mipath: integrator 'mipath' is 'path_mis' here");
 }

@@ -99,7 +99,7 @@ TEST_CASE("groups that nothing shows are warned of", "[unit][instance]")
     REQUIRE(loaded.warnings.size() == 1);
     CHECK_THAT(loaded.warnings[0].message,
                ContainsSubstring("no <shape type=\"instance\"> names the group 'lost'"));
-    CHECK_FALSE(loaded.job.scene.intersect({Vec3f(0, 0, 5), Vec3f(0, 0, -1), 0.f, 4.5f}));
+    CHECK_FALSE(loaded.job.scene->intersect({Vec3f(0, 0, 5), Vec3f(0, 0, -1), 0.f, 4.5f}));
 }
 
 TEST_CASE("BSDFs by reference serve groups", "[unit][instance]")
@@ -108,7 +108,7 @@ TEST_CASE("BSDFs by reference serve groups", "[unit][instance]")
         load_text(start + group("g", "<shape type='sphere'><ref id='gold'/></shape>") +
                   instance("g", "<scale value='2,1,1'/>") +
                   "<bsdf type='normalmap' id='gold'><bsdf type='diffuse'/></bsdf></scene>");
-    const auto hit = loaded.job.scene.intersect({Vec3f(0.3f, 0.2f, 5), Vec3f(0, 0, -1)});
+    const auto hit = loaded.job.scene->intersect({Vec3f(0.3f, 0.2f, 5), Vec3f(0, 0, -1)});
     REQUIRE(hit);
     // The frame of an oriented BSDF runs along dp/du, which the map stretches.
     const Vec3f along = tangents_at(*hit).dp_du;

@@ -42,10 +42,10 @@ TEST_CASE("the smallest scene, and its defaults", "[unit][loader]")
     CHECK(loaded.sampler == "independent");
     CHECK(loaded.integrator == "normals");
     CHECK(loaded.job.filter->radius() == 2.f);
-    REQUIRE(loaded.job.scene.objects().size() == 1);
-    CHECK(albedo(loaded.job.scene.objects()[0]).g == Approx(0.5f));
-    CHECK(loaded.job.scene.objects()[0].name == "mesh 'sphere' (scene.xml:1)");
-    CHECK(loaded.job.scene.emitters().empty());
+    REQUIRE(loaded.job.scene->objects().size() == 1);
+    CHECK(albedo(loaded.job.scene->objects()[0]).g == Approx(0.5f));
+    CHECK(loaded.job.scene->objects()[0].name == "mesh 'sphere' (scene.xml:1)");
+    CHECK(loaded.job.scene->emitters().empty());
     CHECK(loaded.parse_seconds > 0.0);
     CHECK(loaded.build_seconds > 0.0);
 }
@@ -61,11 +61,11 @@ TEST_CASE("the order of children does not matter", "[unit][loader]")
                   "<sampler type='independent'><integer name='sampleCount' value='+7'/></sampler>"
                   "<camera type='perspective'><rfilter type='box'/><integer name='width' value='3'/></camera>"
                   "<integrator type='path_mis'/></scene>");
-    const SceneObject& object = loaded.job.scene.objects().at(0);
+    const SceneObject& object = loaded.job.scene->objects().at(0);
     CHECK(object.shape->bounds().max.x == Approx(2.f));
     CHECK(albedo(object).b == Approx(0.3f));
     CHECK(object.emitter != nullptr);
-    CHECK(loaded.job.scene.emitters().size() == 2);
+    CHECK(loaded.job.scene->emitters().size() == 2);
     CHECK(loaded.job.sampler->samples_per_pixel() == 7);
     CHECK(loaded.job.filter->radius() == Approx(0.5f));
     CHECK(loaded.job.camera->resolution() == Vec2i(3, 720));
@@ -132,8 +132,8 @@ TEST_CASE("unknown parameters are warnings if asked for", "[unit][loader]")
         start + "<integer name='spp' value='1'/><shape type='sphere'><float name='raduis' value='2'/>"
                 "</shape></scene>";
     CHECK_THAT(errors(xml), ContainsSubstring("error: unknown parameter 'raduis'"));
-    LoadOptions options;
-    options.lenient = true;
+    RenderSettings options;
+    options.scene.lenient = true;
     const LoadedScene loaded = load_text(xml, options);
     CHECK_THAT(messages(loaded.warnings), ContainsSubstring("warning: unknown parameter 'raduis'") &&
                                               ContainsSubstring("warning: unknown parameter 'spp'"));
@@ -175,13 +175,14 @@ TEST_CASE("paths are relative to the file that they stand in", "[unit][loader]")
         "<scene><mesh type='obj'><string name='filename' value='../meshes/t.obj'/></mesh></scene>");
     const auto path = directory.write("main.xml", start + "<include filename='parts/mesh.xml'/></scene>");
     const LoadedScene loaded = load_scene(path);
-    CHECK(loaded.job.scene.triangle_count() == 1);
-    CHECK(loaded.job.scene.objects()[0].name == "mesh 'obj' (mesh.xml:1)");
+    CHECK(loaded.job.scene->triangle_count() == 1);
+    CHECK(loaded.job.scene->objects()[0].name == "mesh 'obj' (mesh.xml:1)");
 }
 
 TEST_CASE("the hash of a scene is that of everything it reads", "[unit][loader]")
 {
-    const auto hash = [](const std::string& mesh, const std::string& part, const LoadOptions& options = {}) {
+    const auto hash = [](const std::string& mesh, const std::string& part,
+                         const RenderSettings& options = {}) {
         const TempDirectory directory; // each time another one
         directory.write("t.obj", mesh);
         directory.write("part.xml", part);
@@ -197,17 +198,17 @@ TEST_CASE("the hash of a scene is that of everything it reads", "[unit][loader]"
     CHECK(first == hash(mesh, "<scene/>"));
     CHECK(first != hash(mesh + "\n", "<scene/>"));
     CHECK(first != hash(mesh, "<scene />"));
-    LoadOptions options;
-    options.samples_per_pixel = 3; // more of the same
-    options.instruction_set = "sse2";
+    RenderSettings options;
+    options.samples.per_pixel = 3; // more of the same
+    options.method.instruction_set = "sse2";
     CHECK(first == hash(mesh, "<scene/>", options));
-    options.definitions["x"] = "2";
+    options.scene.definitions["x"] = "2";
     CHECK(first != hash(mesh, "<scene/>", options));
-    options.definitions.clear();
-    options.integrator = "path_mis";
+    options.scene.definitions.clear();
+    options.method.integrator = "path_mis";
     CHECK(first != hash(mesh, "<scene/>", options));
-    options.integrator.reset();
-    options.mirrored_view = true;
+    options.method.integrator.reset();
+    options.scene.mirrored_view = true;
     CHECK(first != hash(mesh, "<scene/>", options));
 }
 
@@ -312,11 +313,11 @@ TEST_CASE("a picture must fit into memory", "[unit][loader]")
     CHECK_THAT(errors(xml),
                ContainsSubstring("scene.xml:1:108: error: an image of 65535 x 65535 pixels needs") &&
                    ContainsSubstring("lower width and height"));
-    LoadOptions options;
-    options.kept_pixels = 100; // of a crop
+    RenderSettings options;
+    options.view.crop = PixelRect{0, 0, 10, 10};
     CHECK(load_text(xml, options).job.camera->resolution() == Vec2i(65535, 65535));
     options = {};
-    options.resolution = Vec2i(4, 4);
+    options.view.size = Vec2i(4, 4);
     CHECK(load_text(xml, options).job.camera->resolution() == Vec2i(4, 4));
 }
 
@@ -360,10 +361,10 @@ TEST_CASE("meshes that are read at the same time give their errors and files in 
     };
     const LoadedScene loaded = scene_with({});
     REQUIRE(loaded.inputs.size() == 13);
-    REQUIRE(loaded.job.scene.objects().size() == 12);
+    REQUIRE(loaded.job.scene->objects().size() == 12);
     for (int i = 0; i < 12; ++i) {
         CHECK(loaded.inputs[static_cast<std::size_t>(i) + 1].path.filename() == fmt::format("{}.obj", i));
-        CHECK(loaded.job.scene.objects()[static_cast<std::size_t>(i)].name ==
+        CHECK(loaded.job.scene->objects()[static_cast<std::size_t>(i)].name ==
               fmt::format("mesh 'obj' (scene.xml:{})", i + 2));
     }
     std::string order;

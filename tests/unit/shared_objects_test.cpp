@@ -15,7 +15,7 @@ namespace {
 
 const Bsdf* bsdf_of(const LoadedScene& scene, std::size_t object)
 {
-    return scene.job.scene.objects().at(object).bsdf.get();
+    return scene.job.scene->objects().at(object).bsdf.get();
 }
 
 float albedo_of(const Bsdf& bsdf)
@@ -147,7 +147,7 @@ TEST_CASE("only oriented BSDFs turn the shading frame along dp/du", "[unit][shar
         load_text(start + turned + "<bsdf type='normalmap'><bsdf type='diffuse'/></bsdf></shape></scene>");
     const LoadedScene plain = load_text(start + turned + "<bsdf type='diffuse'/></shape></scene>");
     const Ray ray(Vec3f(0.1f, 0.1f, 1), Vec3f(0, 0, -1));
-    const auto along = scene.job.scene.intersect(ray), as_ever = plain.job.scene.intersect(ray);
+    const auto along = scene.job.scene->intersect(ray), as_ever = plain.job.scene->intersect(ray);
     REQUIRE((along && as_ever));
     const Vec3f dp_du = along->shape->tangents(*along).dp_du;
     CHECK(length(along->shading.s - normalize(dp_du)) < 1e-6f);

@@ -30,7 +30,7 @@ TEST_CASE("an unnamed texture is taken where only one parameter can be one", "[u
         load_text(start + "<mesh type='sphere'><bsdf type='diffuse'><texture type='constant_color'>"
                           "<color name='value' value='0.25,0.5,0.75'/></texture></bsdf></mesh></scene>");
     const auto value =
-        scene.job.scene.objects().front().bsdf->evaluate(SurfacePoint(), Vec3f(0, 0, 1), Vec3f(0, 0, 1));
+        scene.job.scene->objects().front().bsdf->evaluate(SurfacePoint(), Vec3f(0, 0, 1), Vec3f(0, 0, 1));
     CHECK_THAT(value.f_cos.g, Catch::Matchers::WithinRel(0.5f * inv_pi, 1e-5f));
     CHECK_THAT(value.f_cos.b, Catch::Matchers::WithinRel(0.75f * inv_pi, 1e-5f));
 }

@@ -19,17 +19,18 @@
 
 namespace plumb {
 
-// Everything that a picture depends on, but for the seed and the number of samples.
+// Everything that a picture depends on, but for the seed and the number of samples. Cheap to copy; several jobs may share
+// what they have in common.
 struct RenderJob {
-    Scene scene;
-    std::unique_ptr<Camera> camera;
-    std::unique_ptr<Integrator> integrator;
-    std::unique_ptr<Sampler> sampler;
-    std::unique_ptr<Filter> filter;
+    std::shared_ptr<const Scene> scene;
+    std::shared_ptr<const Camera> camera;
+    std::shared_ptr<const Integrator> integrator; // prepared for the scene
+    std::shared_ptr<const Sampler> sampler;
+    std::shared_ptr<const Filter> filter;
 };
 
 struct RenderOptions {
-    std::uint64_t samples_per_pixel = 0; // 0: what the sampler says
+    std::uint64_t samples_per_pixel = 0; // 0: what the scene file says
     std::uint64_t seed = 0;
     int threads = 0;               // 0: all
     int tile_size = 32;            // pixels; changes no bit of the picture
@@ -86,7 +87,7 @@ int render_threads(const RenderOptions& options);
 // threads, tiles, crop, or the order and the calls in which they are taken.
 class Rendering {
 public:
-    // The job must outlive it. Throws what render_window() and Aovs throw, and Error if memory is short.
+    // Throws what render_window() and Aovs throw, and Error if memory is short.
     Rendering(const RenderJob& job, const RenderOptions& options);
     // Goes on from a state of the same job, seed and window. Throws Error if it does not have the layers of options.aovs.
     Rendering(const RenderJob& job, const RenderOptions& options, RenderState state);
@@ -100,7 +101,7 @@ public:
     RenderState finish() && { return std::move(state_); }
 
 private:
-    const RenderJob& job_;
+    const RenderJob job_;
     const RenderOptions options_;
     RenderState state_;
 };
@@ -108,7 +109,7 @@ private:
 // All samples that the options ask for.
 RenderState render(const RenderJob& job, const RenderOptions& options, const ProgressReport& progress = {});
 
-// One sample of one pixel, exactly as render() takes it: its value, its filter weight and, in `log`, its path.
+// One sample of one pixel, exactly as render() takes it with these options: its value, its filter weight and, in `log`, its path.
 struct ReplayedSample {
     Color value;
     Vec2f raster;
@@ -116,6 +117,7 @@ struct ReplayedSample {
     Verdict verdict = Verdict::accepted;
     std::vector<PathEvent> log;
 };
-ReplayedSample replay(const RenderJob& job, std::uint64_t seed, Vec2i pixel, std::uint64_t sample_index);
+ReplayedSample replay(const RenderJob& job, const RenderOptions& options, Vec2i pixel,
+                      std::uint64_t sample_index);
 
 } // namespace plumb

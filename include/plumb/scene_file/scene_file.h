@@ -6,11 +6,12 @@
 #include "plumb/base/error.h"
 #include "plumb/model/dialect.h"
 #include "plumb/render/render.h"
-#include "plumb/scene/instruction_set.h"
+#include "plumb/settings/render_settings.h"
 
 #include <filesystem>
-#include <map>
+#include <memory>
 #include <string>
+#include <vector>
 
 namespace plumb {
 
@@ -20,30 +21,13 @@ namespace plumb {
 //         rectangles
 inline constexpr int language_version = 2;
 
-// What the command line changes of a scene.
-struct LoadOptions {
-    std::optional<DialectName>
-        dialect; // nothing: the file's dialect attribute, else the evidence in it and in the files beside it
-    std::optional<bool> emitters_absorb;
-    std::optional<bool> mirrored_view;
-    std::optional<float> environment_scale;
-    std::map<std::string, std::string> definitions; // -D name=value
-    std::optional<std::string>
-        integrator; // replaces the scene's integrator by one of this type, default parameters
-    std::optional<std::string> sampler;
-    std::optional<std::uint64_t> samples_per_pixel;
-    std::optional<Vec2i> resolution;
-    std::optional<std::uint64_t> kept_pixels;                    // of a crop: only these must fit into memory
-    std::string instruction_set{default_instruction_set().name}; // one of instruction_sets()
-    bool lenient = false;                                        // unknown parameters are warnings
-};
-
 // A file that was read, and the hash of its bytes: 32 hex digits.
 struct InputFile {
     std::filesystem::path path;
     std::string hash;
 };
 
+// A scene with a method and a view. Cheap to copy: what is large is shared.
 struct LoadedScene {
     RenderJob job;
     Dialect dialect;
@@ -58,8 +42,32 @@ struct LoadedScene {
     double build_seconds = 0.0; // Embree
 };
 
-// Throws SceneError with everything that is wrong with the scene, or Error if the file cannot be read.
-LoadedScene load_scene(const std::filesystem::path& path, const LoadOptions& options = {});
+// A scene file, read and expanded once. It makes as many methods and views of its scene as wanted; they share the scene.
+class SceneFile {
+public:
+    // Throws SceneError, or Error if the file cannot be read.
+    explicit SceneFile(const std::filesystem::path& path, const SceneSettings& settings = {});
+    SceneFile(const SceneFile&) = delete;
+    SceneFile& operator=(const SceneFile&) = delete;
+    ~SceneFile();
+
+    const std::filesystem::path& path() const { return path_; }
+    const SceneSettings& settings() const;
+
+    // The first call builds the scene, and so does one with another instruction set than the call before. Of a view with a
+    // crop, only those pixels must fit into memory. Throws SceneError with everything that is wrong.
+    LoadedScene load(const MethodSettings& method = {}, const ViewSettings& view = {});
+
+private:
+    LoadedScene load_with(const MethodSettings& method, const ViewSettings& view);
+
+    struct Impl;
+    std::filesystem::path path_;
+    std::unique_ptr<Impl> impl_;
+};
+
+// Once, with what the settings say of scene, method and view.
+LoadedScene load_scene(const std::filesystem::path& path, const RenderSettings& settings = {});
 
 // What the scene language knows, for `renderer types`.
 struct TypeInfo {

@@ -61,8 +61,8 @@ struct TestFile {
 // The tests of one file are told apart by 16 bits of the random numbers' key.
 inline constexpr std::size_t max_tests = 65536;
 
-// options: the parts that name a dialect, definitions, an instruction set or leniency. Throws SceneError with
+// settings: those of the scene, and the instruction set. Throws SceneError with
 // everything that is wrong with the file, or Error if it cannot be read.
-TestFile load_test(const std::filesystem::path& path, const LoadOptions& options = {});
+TestFile load_test(const std::filesystem::path& path, const RenderSettings& settings = {});
 
 } // namespace plumb

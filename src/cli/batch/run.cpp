@@ -150,7 +150,7 @@ std::vector<std::string> warnings_of(const LoadedScene& scene)
 std::string counted_title(const SuiteEntry& entry, const LoadedScene& scene, std::set<std::string>& taken)
 {
     if (entry.settings.contains("spp")) return entry.title();
-    std::string title = fmt::format("{}_{}", entry.name, scene.job.sampler->samples_per_pixel());
+    std::string title = fmt::format("{}_{}", entry.name, render_samples(scene.job, {}));
     if (!taken.insert(title).second)
         throw SceneError({Diagnostic{
             Severity::error, entry.at,

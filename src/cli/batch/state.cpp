@@ -23,8 +23,9 @@ std::string picture_key(const RenderRequest& request, const LoadedScene& scene)
     Hash128 hash;
     for (const std::string& part :
          {std::string(PLUMB_VERSION), hash_of_program(), request.scene, scene.input_hash,
-          options_text(request.settings), std::to_string(scene.job.sampler->samples_per_pixel()),
-          scene.job.scene.options().instruction_set, scene.job.scene.embree_version()})
+          options_text(request.settings),
+          std::to_string(render_samples(scene.job, render_options(request.settings, 1))),
+          scene.job.scene->options().instruction_set, scene.job.scene->embree_version()})
         hash.update(fmt::format("{}:{}", part.size(), part));
     return hash.hex();
 }

@@ -30,8 +30,8 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     make_files();
     const auto path = write_file("scene.xml", text_of(data, size));
-    LoadOptions options;
-    options.resolution = Vec2i(4, 4);
+    RenderSettings options;
+    options.view.size = Vec2i(4, 4);
     allow_our_errors([&] {
         const LoadedScene scene = load_scene(path, options);
         for (const Diagnostic& warning : scene.warnings) expect_printable(warning.text());

@@ -38,8 +38,8 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
             expect(!entry.title().empty(), "an image without a name");
     });
     allow_our_errors([&] {
-        LoadOptions options;
-        options.kept_pixels = 1;
+        RenderSettings options;
+        options.view.crop = PixelRect{0, 0, 1, 1};
         const TestFile test = load_test(path, options);
         for (const Diagnostic& warning : test.warnings) expect_printable(warning.text());
         expect(test.test_count() > 0 && test.test_count() <= max_tests, "no tests, or too many");
