@@ -25,11 +25,12 @@ namespace plumb {
 class AreaEmitter final : public Emitter {
 public:
     explicit AreaEmitter(const Params& params)
-        : radiance_(
-              params.texture("radiance", Color(params.dialect().name == DialectName::mcgill ? 0.f : 1.f))),
+        : radiance_(params.color_texture("radiance",
+                                         Color(params.dialect().name == DialectName::mcgill ? 0.f : 1.f))),
           scale_(params.number("scale", 1.f, Range::at_least(0.0))),
           shape_(params.parent_shape())
     {
+        if (radiance_->reads_attributes()) params.fail("radiance", "cannot be an attribute of a mesh");
         if (shape_ == nullptr)
             params.fail("area", "emitters need a surface: put it inside a <mesh> or <shape>");
         else
@@ -52,7 +53,7 @@ public:
         const Vec3d direction(wi);
         const double cosine = -dot(direction, Vec3d(at->geometric_normal));
         if (!(cosine > 0.0)) return {};
-        const Color radiance = radiance_->color(at->uv) * scale_;
+        const Color radiance = radiance_->color(*at) * scale_;
         if (measure != Measure::area && has_solid_angle_)
             if (const std::optional<float> pdf = shape_->solid_angle_pdf(from)) return {radiance, *pdf};
         const double distance2 = length_squared(Vec3d(at->position) - Vec3d(from));
@@ -95,7 +96,7 @@ private:
         });
     }
 
-    std::shared_ptr<const Texture> radiance_;
+    std::shared_ptr<const ColorTexture> radiance_;
     float scale_;
     const Shape* shape_;
     bool has_solid_angle_ = false;

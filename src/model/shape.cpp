@@ -14,4 +14,9 @@ std::optional<float> Shape::solid_angle_pdf(const Vec3f&) const
     return std::nullopt;
 }
 
+std::optional<Color> Shape::attribute(std::string_view, const SurfacePoint&) const
+{
+    return std::nullopt;
+}
+
 } // namespace plumb

@@ -75,7 +75,10 @@ public:
                                            : normalize(-ray.direction);
         const Frame shading(shading_normal(primitive, b, geometric_normal));
         const float clearance = triangle_clearance(t, geometric_normal, normal_length);
-        return {position(edges, b), clearance, geometric_normal, primitive, shading, 0, uv(primitive, b)};
+        SurfacePoint at{position(edges, b), clearance, geometric_normal, primitive, shading, 0,
+                        uv(primitive, b)};
+        at.barycentric = Vec2f(static_cast<float>(b.u), static_cast<float>(b.v));
+        return at;
     }
 
     Tangents tangents(const SurfacePoint& at) const override

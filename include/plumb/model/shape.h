@@ -3,6 +3,7 @@
 
 // The interface of shapes.
 
+#include "plumb/math/color.h"
 #include "plumb/math/direction_cone.h"
 #include "plumb/math/ray.h"
 #include "plumb/model/surface.h"
@@ -11,6 +12,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string_view>
 
 namespace plumb {
 
@@ -71,6 +73,10 @@ public:
     // The derivatives by uv at a point that surface_at returned. Where uv have none (at a pole of a sphere, or where the
     // uv of a triangle lie on a line): two directions in the surface. Parallel only on triangles without area.
     virtual Tangents tangents(const SurfacePoint& at) const = 0;
+
+    // The value at a point that surface_at returned of what a mesh file names: "vertex_NAME", interpolated between the
+    // corners, or "face_NAME". One number is a grey. Nothing if the shape has no such attribute.
+    virtual std::optional<Color> attribute(std::string_view name, const SurfacePoint& at) const;
 
     // Must be called before sample_area; shapes whose surface is never sampled keep no table for it.
     virtual void prepare_sampling() {}
