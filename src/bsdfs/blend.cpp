@@ -28,7 +28,7 @@ namespace plumb {
 class Blend final : public Bsdf {
 public:
     explicit Blend(const Params& params)
-        : weight_(params.scalar_texture("weight", 0.5f, Range::closed(0.0, 1.0))),
+        : weight_(params.number_texture("weight", 0.5f, Range::closed(0.0, 1.0))),
           first_(params.bsdf(0)),
           second_(params.bsdf(1))
     {}
@@ -74,9 +74,9 @@ public:
     }
 
 private:
-    float weight(const SurfacePoint& at) const { return weight_->scalar(at.uv); }
+    float weight(const SurfacePoint& at) const { return weight_->number(at); }
 
-    std::shared_ptr<const Texture> weight_; // of the second
+    std::shared_ptr<const NumberTexture> weight_; // of the second
     std::shared_ptr<const Bsdf> first_;
     std::shared_ptr<const Bsdf> second_;
 };

@@ -16,7 +16,7 @@ namespace plumb {
 class Diffuse final : public Bsdf {
 public:
     explicit Diffuse(const Params& params)
-        : albedo_(params.texture("albedo", Color(0.5f), Range::closed(0.0, 1.0)))
+        : albedo_(params.color_texture("albedo", Color(0.5f), Range::closed(0.0, 1.0)))
     {}
 
     Lobes lobes() const override { return Lobe::diffuse_reflection; }
@@ -25,7 +25,7 @@ public:
     {
         if (!(wi.z > 0.f && wo.z > 0.f)) return {};
         const float pdf = cosine_hemisphere_pdf(wo);
-        return {albedo_->color(at.uv) * pdf, pdf};
+        return {albedo_->color(at) * pdf, pdf};
     }
 
     std::optional<BsdfSample> sample(const SurfacePoint& at, const Vec3f& wi, float /*u_lobe*/,
@@ -34,17 +34,16 @@ public:
         if (!(wi.z > 0.f)) return std::nullopt;
         const Vec3f wo = square_to_cosine_hemisphere(u);
         if (!(wo.z > 0.f)) return std::nullopt;
-        return BsdfSample{wo, albedo_->color(at.uv), cosine_hemisphere_pdf(wo), Lobe::diffuse_reflection,
-                          1.f};
+        return BsdfSample{wo, albedo_->color(at), cosine_hemisphere_pdf(wo), Lobe::diffuse_reflection, 1.f};
     }
 
     Color albedo(const SurfacePoint& at, const Vec3f& wi) const override
     {
-        return wi.z > 0.f ? albedo_->color(at.uv) : Color(0.f);
+        return wi.z > 0.f ? albedo_->color(at) : Color(0.f);
     }
 
 private:
-    std::shared_ptr<const Texture> albedo_;
+    std::shared_ptr<const ColorTexture> albedo_;
 };
 
 template std::unique_ptr<Bsdf> build<Diffuse>(const Params&);

@@ -22,6 +22,13 @@ struct Refraction {
 // Exact Fresnel equations (pbrt 4th ed., equation 9.6), from either side.
 Refraction fresnel_dielectric(float cos_i, float eta);
 
+// Exact Fresnel equations for light from vacuum onto an index of refraction eta + i k (Born and Wolf 1999, section
+// 14.2, in real numbers). cos_i, eta, k >= 0.
+float fresnel_conductor(float cos_i, float eta, float k);
+
+// The mean of 1 - reflectance over a hemisphere of directions on the outside, each weighted by its cosine over pi.
+float mean_transmittance(float eta);
+
 // wi refracted about the unit normal; nothing at total internal reflection. normal may lie on either side of wi.
 std::optional<Vec3f> refract(const Vec3f& wi, const Vec3f& normal, float eta);
 

@@ -30,7 +30,7 @@ namespace plumb {
 class Mask final : public Bsdf {
 public:
     explicit Mask(const Params& params)
-        : opacity_(params.scalar_texture("opacity", 0.5f, Range::closed(0.0, 1.0))), bsdf_(params.bsdf(0))
+        : opacity_(params.number_texture("opacity", 0.5f, Range::closed(0.0, 1.0))), bsdf_(params.bsdf(0))
     {}
 
     Lobes lobes() const override { return bsdf_->lobes() | Lobe::null; }
@@ -57,9 +57,9 @@ public:
     }
 
 private:
-    float own_opacity(const SurfacePoint& at) const { return opacity_->scalar(at.uv); }
+    float own_opacity(const SurfacePoint& at) const { return opacity_->number(at); }
 
-    std::shared_ptr<const Texture> opacity_;
+    std::shared_ptr<const NumberTexture> opacity_;
     std::shared_ptr<const Bsdf> bsdf_;
 };
 

@@ -11,8 +11,11 @@ struct RefractionIndices {
     float interior;
     float exterior; // the side that the normal points to
 
-    explicit RefractionIndices(const Params& params)
-        : interior(params.number("intIOR", 1.5046f, Range::closed(0.01, 100.0))),  // borosilicate glass
+    static constexpr float borosilicate_glass = 1.5046f;
+    static constexpr float polypropylene = 1.49f;
+
+    explicit RefractionIndices(const Params& params, float default_interior = borosilicate_glass)
+        : interior(params.number("intIOR", default_interior, Range::closed(0.01, 100.0))),
           exterior(params.number("extIOR", 1.000277f, Range::closed(0.01, 100.0))) // air
     {}
 

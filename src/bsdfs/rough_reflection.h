@@ -1,23 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Reflection by Beckmann microfacets, which the rough BSDFs share; Fresnel is theirs to multiply.
+// Reflection by microfacets, which the rough BSDFs share; Fresnel is theirs to multiply.
 //
 // [1] Walter, Marschner, Li and Torrance 2007, "Microfacet Models for Refraction through Rough Surfaces".
 
 #include "bsdfs/fresnel.h"
 #include "bsdfs/microfacet_distribution.h"
-#include "plumb/model/texture.h"
 
 namespace plumb {
-
-// The smallest roughness that single precision renders well. Smaller ones count as this.
-inline constexpr float min_alpha = 1e-4f;
-
-inline Beckmann beckmann_at(const Texture& alpha, const Vec2f& uv)
-{
-    return Beckmann(std::max(alpha.scalar(uv), min_alpha));
-}
 
 // Microfacets seen from behind are those seen from the opposite direction.
 inline Vec3f upwards(const Vec3f& v)
@@ -32,7 +23,8 @@ struct RoughReflection {
 };
 
 // wi and wo lie on one side of the surface.
-inline RoughReflection rough_reflection(const Beckmann& microfacets, const Vec3f& wi, const Vec3f& wo)
+inline RoughReflection rough_reflection(const MicrofacetDistribution& microfacets, const Vec3f& wi,
+                                        const Vec3f& wo)
 {
     // [1], equation 13. The length of the sum is twice the cosine, the same whichever way light goes.
     const Vec3d sum = Vec3d(wi) + Vec3d(wo);

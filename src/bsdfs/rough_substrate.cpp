@@ -5,6 +5,7 @@
 
 #include "bsdfs/refraction_indices.h"
 #include "bsdfs/rough_reflection.h"
+#include "bsdfs/roughness.h"
 #include "model/plugin.h"
 #include "plumb/model/bsdf.h"
 #include "plumb/sampling/sampling.h"
@@ -19,10 +20,13 @@ namespace plumb {
 /// lower index, the coat reflects totally beyond the critical angle while the base still shines: more light leaves than
 /// arrives, and a warning says so.
 ///
-///     alpha    float or texture   roughness, in (0, 1]; less than 0.0001 counts as 0.0001   (default 0.1)
-///     intIOR   float              index of refraction inside, in [0.01, 100]                (default 1.5046)
-///     extIOR   float              index of refraction outside, in [0.01, 100]               (default 1.000277)
-///     kd       color or texture   albedo of the base, in [0, 1]                             (default 0.5)
+///     alpha          float or texture   roughness, in [0, 1]; less than 0.0001 counts as 0.0001   (default 0.1)
+///     distribution   string             of the microfacets: beckmann or ggx                       (default beckmann)
+///     alphaU         float or texture   roughness along dp/du, in [0, 1]                          (default: alpha)
+///     alphaV         float or texture   roughness along dp/dv, in [0, 1]                          (default: alpha)
+///     intIOR         float              index of refraction inside, in [0.01, 100]                (default 1.5046)
+///     extIOR         float              index of refraction outside, in [0.01, 100]               (default 1.000277)
+///     kd             color or texture   albedo of the base, in [0, 1]                             (default 0.5)
 ///
 ///         <bsdf type="roughsubstrate">
 ///             <float name="alpha" value="0.05"/>
@@ -32,6 +36,7 @@ class RoughSubstrate final : public Bsdf {
 public:
     explicit RoughSubstrate(const Params& params) : RoughSubstrate(params, RefractionIndices(params)) {}
 
+    bool is_oriented() const override { return roughness_.is_oriented(); }
     Lobes lobes() const override { return Lobe::diffuse_reflection | Lobe::glossy_reflection; }
 
     BsdfValue evaluate(const SurfacePoint& at, const Vec3f& wi, const Vec3f& wo) const override
@@ -57,14 +62,14 @@ public:
 
 private:
     struct Material {
-        Beckmann microfacets;
+        MicrofacetDistribution microfacets;
         Color kd;
         float glossy_chance;
     };
 
     RoughSubstrate(const Params& params, const RefractionIndices& indices)
-        : alpha_(params.scalar_texture("alpha", 0.1f, Range::positive_to(1.0))),
-          kd_(params.texture("kd", Color(0.5f), Range::closed(0.0, 1.0))),
+        : roughness_(params),
+          kd_(params.color_texture("kd", Color(0.5f), Range::closed(0.0, 1.0))),
           eta_(indices.eta()),
           base_scale_(
               28.f / (23.f * pi) *
@@ -78,8 +83,8 @@ private:
 
     Material material(const SurfacePoint& at, const Vec3f& wi) const
     {
-        const Color kd = kd_->color(at.uv);
-        return {beckmann_at(*alpha_, at.uv), kd, glossy_chance(kd, wi)};
+        const Color kd = kd_->color(at);
+        return {roughness_.at(at), kd, glossy_chance(kd, wi)};
     }
 
     // The lobe is chosen by the reflectance at wi, kept away from 0 and 1 unless a lobe is black.
@@ -109,8 +114,8 @@ private:
         return 1.f - sqr(sqr(x)) * x;
     }
 
-    std::shared_ptr<const Texture> alpha_;
-    std::shared_ptr<const Texture> kd_;
+    Roughness roughness_;
+    std::shared_ptr<const ColorTexture> kd_;
     float eta_;
     float base_scale_;
 };

@@ -34,6 +34,7 @@ public:
     bool is_oriented() const override { return is_oriented_; }
     bool has_back() const override { return true; }
     bool is_reciprocal() const override { return is_reciprocal_; }
+    bool conserves_energy() const override { return front_->conserves_energy() && back_->conserves_energy(); }
 
     BsdfValue evaluate(const SurfacePoint& at, const Vec3f& wi, const Vec3f& wo) const override
     {

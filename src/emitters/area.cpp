@@ -31,6 +31,7 @@ public:
           scale_(params.number("scale", 1.f, Range::at_least(0.0))),
           shape_(params.parent_shape())
     {
+        if (radiance_->reads_attributes()) params.fail("radiance", "cannot be an attribute of a mesh");
         if (shape_ == nullptr)
             params.fail("area", "emitters need a surface: put it inside a <mesh> or <shape>");
         else
@@ -53,7 +54,7 @@ public:
         const Vec3d direction(wi);
         const double cosine = -dot(direction, Vec3d(at->geometric_normal));
         if (!(cosine > 0.0)) return {};
-        const Color radiance = radiance_at(at->uv);
+        const Color radiance = radiance_of(radiance_->color(*at));
         if (measure != Measure::area && has_solid_angle_)
             if (const std::optional<float> pdf = shape_->solid_angle_pdf(from)) return {radiance, *pdf};
         const double distance2 = length_squared(Vec3d(at->position) - Vec3d(from));
@@ -77,20 +78,21 @@ public:
     bool has_solid_angle() const override { return has_solid_angle_; }
 
 private:
-    static std::shared_ptr<const Texture> read_radiance(const Params& params)
+    static std::shared_ptr<const ColorTexture> read_radiance(const Params& params)
     {
         const Color fallback(1.f);
-        const auto texture = params.texture("radiance", fallback, Range::any());
+        const auto texture = params.color_texture("radiance", fallback, Range::any());
         if (!(texture->min_value() < 0.f)) return texture;
         // A colour that someone has written is a mistake; images often have a few such pixels.
-        if (dynamic_cast<const UniformTexture*>(texture.get())) return params.texture("radiance", fallback);
+        if (dynamic_cast<const UniformTexture*>(texture.get()))
+            return params.color_texture("radiance", fallback);
         params.warn("radiance", "the texture has negative values, which count as 0");
         return texture;
     }
 
-    Color radiance_at(const Vec2f& uv) const
+    Color radiance_of(const Color& value) const
     {
-        const Color radiance = radiance_->color(uv) * scale_;
+        const Color radiance = value * scale_;
         if (!has_negative_) [[likely]]
             return radiance;
         return {std::max(radiance.r, 0.f), std::max(radiance.g, 0.f), std::max(radiance.b, 0.f)};
@@ -112,7 +114,7 @@ private:
             light.position = point.position;
             light.normal = point.normal;
             light.clearance = point.clearance;
-            light.radiance = radiance_at(point.uv);
+            light.radiance = radiance_of(radiance_->color(point.uv));
             // Per unit solid angle = per unit area * distance^2 / cosine.
             light.pdf = measure == Measure::area
                             ? static_cast<float>(point.pdf * (distance2 * distance / facing))
@@ -121,7 +123,7 @@ private:
         });
     }
 
-    std::shared_ptr<const Texture> radiance_;
+    std::shared_ptr<const ColorTexture> radiance_;
     bool has_negative_;
     float scale_;
     const Shape* shape_;

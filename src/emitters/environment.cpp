@@ -49,9 +49,7 @@ public:
           rows_at_poles_(p.boolean("rowsAtPoles", false)),
           constant_(p.color("radiance", Color(1.f)) * p.number("scale", 1.f, Range::at_least(0.0)))
     {
-        if (flipped_ && rows_at_poles_)
-            p.fail("rowsAtPoles",
-                   "cannot be true together with flipped");
+        if (flipped_ && rows_at_poles_) p.fail("rowsAtPoles", "cannot be true together with flipped");
         const double offset = p.number("columnOffset", 0.f);
         column_offset_ = offset - std::floor(offset);
         to_world_ = p.transform("toWorld");

@@ -38,7 +38,7 @@ public:
     explicit ProjectorEmitter(const Params& params)
         : to_world_(read_aim(params)),
           to_local_(to_world_.inverse()),
-          irradiance_(params.texture("irradiance", Color(1.f))),
+          irradiance_(params.color_texture("irradiance", Color(1.f))),
           scale_(params.number("scale", 1.f, Range::at_least(0.0))),
           view_(read_field_of_view(params, irradiance_->resolution())),
           flip_v_(params.boolean("flipV", false))
@@ -104,7 +104,7 @@ public:
 private:
     Transform to_world_;
     Transform to_local_;
-    std::shared_ptr<const Texture> irradiance_;
+    std::shared_ptr<const ColorTexture> irradiance_;
     float scale_;
     FieldOfView view_;
     bool flip_v_;

@@ -33,7 +33,7 @@ public:
         : to_world_(read_aim(params)),
           to_local_(to_world_.inverse()),
           intensity_(params.color("intensity", Color(1.f))),
-          texture_(params.texture("texture", Color(1.f)))
+          texture_(params.color_texture("texture", Color(1.f)))
     {
         const double cutoff = params.number("cutoffAngle", 20.f, Range::open(0.0, 180.0));
         const double beam =
@@ -112,7 +112,7 @@ private:
     Transform to_world_;
     Transform to_local_;
     Color intensity_; // W / sr
-    std::shared_ptr<const Texture> texture_;
+    std::shared_ptr<const ColorTexture> texture_;
     bool is_textured_ = false;
     double cutoff_ = 0.0; // radians
     double beam_ = 0.0;

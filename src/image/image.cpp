@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <new>
 #include <span>
@@ -118,9 +119,9 @@ void convert_integers(const DecodedPicture& picture, bool decode_srgb)
     }
 }
 
-} // namespace
-
-Image read_image(const std::filesystem::path& path, bool decode_srgb)
+// read(module, name), with what it throws in our words.
+template <class Read>
+auto read_file(const std::filesystem::path& path, const Read& read)
 {
     const std::string name = path.string();
     const auto fail = [&name](std::string reason) -> Error {
@@ -130,18 +131,45 @@ Image read_image(const std::filesystem::path& path, bool decode_srgb)
     if (is_truncated_png(path)) throw fail("the file ends early");
     const ImageModule& module = image_module();
     try {
-        DecodedPicture picture = module.read(name);
-        if (picture.integer_levels > 0) convert_integers(picture, decode_srgb);
-        Image image(std::make_unique<Image::Impl>(
-            Image::Impl{picture.data, picture.full_width, picture.full_height, std::move(picture.channels),
-                        std::move(picture.buffer)}));
-        image.metadata = std::move(picture.metadata);
-        return image;
+        return read(module, name);
     } catch (const std::bad_alloc&) {
         throw fail("not enough memory");
     } catch (const std::exception& e) { // ours, and whatever OpenImageIO lets through
         throw fail(e.what());
     }
+}
+
+} // namespace
+
+Image read_image(const std::filesystem::path& path, bool decode_srgb)
+{
+    // As the friend of Image.
+    const auto make = [](DecodedPicture& picture) {
+        Image image(std::make_unique<Image::Impl>(
+            Image::Impl{picture.data, picture.full_width, picture.full_height, std::move(picture.channels),
+                        std::move(picture.buffer)}));
+        image.metadata = std::move(picture.metadata);
+        return image;
+    };
+    return read_file(path, [&](const ImageModule& module, const std::string& name) {
+        DecodedPicture picture = module.read(name);
+        if (picture.integer_levels > 0) convert_integers(picture, decode_srgb);
+        return make(picture);
+    });
+}
+
+std::optional<ByteImage> read_byte_image(const std::filesystem::path& path)
+{
+    return read_file(
+        path, [](const ImageModule& module, const std::string& name) { return module.read_bytes(name); });
+}
+
+std::array<float, 256> byte_values(bool decode_srgb)
+{
+    std::array<float, 256> values;
+    const std::vector<float> all = integer_values(values.size(), decode_srgb);
+    std::copy(all.begin(), all.end(), values.begin());
+    return values;
 }
 
 } // namespace plumb

@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 namespace plumb {
 
@@ -60,6 +61,8 @@ public:
                                                      const std::vector<std::string>& channels,
                                                      bool clear) const = 0;
     virtual DecodedPicture read(const std::string& name) const = 0;
+    // Nothing if its values are not 8-bit integers.
+    virtual std::optional<ByteImage> read_bytes(const std::string& name) const = 0;
     virtual std::vector<unsigned char> encode(const PictureFile& picture) const = 0;
     virtual std::vector<unsigned char> encode_words(const WordImage& image, const FillRows& fill) const = 0;
     virtual void read_words(const std::string& name, const ChooseChannels& choose,

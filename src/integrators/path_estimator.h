@@ -17,7 +17,8 @@ struct PathLimits {
     bool hide_emitters = false; // from the camera
 
     PathLimits() = default;
-    explicit PathLimits(const Params& params); // the parameters maxDepth, rrDepth, countPasses and hideEmitters
+    explicit PathLimits(
+        const Params& params); // the parameters maxDepth, rrDepth, countPasses and hideEmitters
 };
 
 class PathEstimator {

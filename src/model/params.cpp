@@ -212,6 +212,15 @@ Color Params::color(std::string_view name) const
     return color(name, Color(0.f), Range::at_least(0.0));
 }
 
+Color Params::raw_values(std::string_view name, const Color& fallback) const
+{
+    const Property* property = find_tagged(name, {"vector", "color", "point", "float", "integer"});
+    if (!property) return fallback;
+    if (!std::holds_alternative<std::vector<double>>(property->value)) return Color(number(name, 0.f));
+    const Vec3f values = three_numbers(property, name, {fallback.r, fallback.g, fallback.b});
+    return {values.x, values.y, values.z};
+}
+
 Transform Params::transform(std::string_view name) const
 {
     const Property* property = find_tagged(name, {"transform"});

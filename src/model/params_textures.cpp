@@ -9,18 +9,6 @@
 
 namespace plumb {
 
-namespace {
-
-// Whether every value of the texture is in range; if not, the value that is not.
-std::optional<float> value_outside(const Texture& texture, const Range& range)
-{
-    if (!range.contains(static_cast<double>(texture.min_value()))) return texture.min_value();
-    if (!range.contains(static_cast<double>(texture.max_value()))) return texture.max_value();
-    return {};
-}
-
-} // namespace
-
 const TextureChild* Params::find_texture(std::string_view name) const
 {
     const auto found = std::find_if(textures_.begin(), textures_.end(),
@@ -30,21 +18,30 @@ const TextureChild* Params::find_texture(std::string_view name) const
     return &*found;
 }
 
-std::shared_ptr<const Texture> Params::texture(std::string_view name, const Color& fallback,
-                                               Range range) const
+std::shared_ptr<const ColorTexture> Params::color_texture(std::string_view name, const Color& fallback,
+                                                          Range range) const
 {
-    if (const auto child = texture_child(name, range)) return child;
-    return std::make_shared<UniformTexture>(color(name, fallback, range));
+    const auto child = texture_child(name);
+    if (child && !reject_outside(name, range, child->min_value(), child->max_value())) return child;
+    return std::make_shared<UniformTexture>(child ? fallback : color(name, fallback, range));
 }
 
-std::shared_ptr<const Texture> Params::scalar_texture(std::string_view name, float fallback,
-                                                      Range range) const
+std::shared_ptr<const NumberTexture> Params::number_texture(std::string_view name, float fallback,
+                                                            Range range) const
 {
-    if (const auto child = texture_child(name, range)) return child;
-    return std::make_shared<UniformTexture>(Color(number(name, fallback, range)));
+    const auto child = texture_child(name);
+    if (child && !reject_outside(name, range, child->min_number(), child->max_number())) return child;
+    return std::make_shared<UniformTexture>(Color(child ? fallback : number(name, fallback, range)));
 }
 
-std::shared_ptr<const Texture> Params::texture_child(std::string_view name, const Range& range) const
+std::string Params::only_texture(std::string_view name) const
+{
+    if (textures_.size() != 1) return std::string(name);
+    const std::string& only = textures_.front().name;
+    return std::find(asked_.begin(), asked_.end(), only) == asked_.end() ? only : std::string(name);
+}
+
+std::shared_ptr<const Texture> Params::texture_child(std::string_view name) const
 {
     const TextureChild* child = find_texture(name);
     if (!child) return nullptr;
@@ -53,13 +50,18 @@ std::shared_ptr<const Texture> Params::texture_child(std::string_view name, cons
                            fmt::format("{} is given twice, as a value and as a texture", as_written(name)));
         return nullptr;
     }
-    if (!child->texture) return nullptr;
-    if (const auto outside = value_outside(*child->texture, range)) {
-        diagnostics_.error(child->at, fmt::format("{} must be {} everywhere, but the texture reaches {}",
-                                                  as_written(name), range.text(), *outside));
-        return nullptr;
-    }
     return child->texture;
+}
+
+// Whether a value of the texture is out of range, which is reported.
+bool Params::reject_outside(std::string_view name, const Range& range, float smallest, float largest) const
+{
+    const bool too_small = !range.contains(static_cast<double>(smallest));
+    if (!too_small && range.contains(static_cast<double>(largest))) return false;
+    diagnostics_.error(find_texture(name)->at,
+                       fmt::format("{} must be {} everywhere, but the texture reaches {}", as_written(name),
+                                   range.text(), too_small ? smallest : largest));
+    return true;
 }
 
 } // namespace plumb

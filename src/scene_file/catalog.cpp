@@ -47,7 +47,14 @@ constexpr Entry<Bsdf> bsdfs[] = {
     {"roughsubstrate", build<class RoughSubstrate>, "RoughSubstrate"},
     {"roughdielectric", build<class RoughDielectric>, "RoughDielectric"},
     {"phong", build<class Phong>, "Phong"},
+    {"conductor", build<class Conductor>, "Conductor"},
+    {"thindielectric", build<class ThinDielectric>, "ThinDielectric"},
+    {"plastic", build<class Plastic>, "Plastic"},
+    {"roughplastic", build<class RoughPlastic>, "RoughPlastic"},
+    {"principled", build<class Principled>, "Principled"},
+    {"principledthin", build<class PrincipledThin>, "PrincipledThin"},
     {"normalmap", build<class NormalMap>, "NormalMap"},
+    {"bumpmap", build<class BumpMap>, "BumpMap"},
     {"twosided", build<class TwoSided>, "TwoSided"},
     {"mask", build<class Mask>, "Mask"},
     {"null", build<class NullBsdf>, "NullBsdf"},
@@ -62,6 +69,10 @@ constexpr Entry<Texture> textures[] = {
     {"constant_color", build<class ConstantTexture>, "ConstantTexture"},
     {"constant_float", build<class ConstantTexture>, "ConstantTexture"},
     {"imagetexture_color3f", build<class ImageTexture>, "ImageTexture"},
+    {"bitmap", build<class BitmapTexture>, "BitmapTexture"},
+    {"checkerboard", build<class Quarters>, "Quarters"},
+    {"rawconstant", build<class RawConstant>, "RawConstant"},
+    {"meshattribute", build<class MeshAttribute>, "MeshAttribute"},
 };
 
 constexpr Entry<Emitter> emitters[] = {

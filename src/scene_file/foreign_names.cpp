@@ -12,11 +12,10 @@ namespace {
 constexpr std::string_view vacuum = "Plumb renders surfaces in a vacuum only";
 constexpr std::string_view vacuum_path = "Plumb renders surfaces in a vacuum only; use 'path_mis'";
 constexpr std::string_view use_path_mis = "use 'path_mis'";
-constexpr std::string_view use_image_texture = "use 'imagetexture_color3f' with <string name=\"filepath\">";
+constexpr std::string_view use_image_texture = "use 'bitmap' with <string name=\"filename\">";
 constexpr std::string_view use_tube =
     "use an 'area' emitter on a small shape inside a black tube, or 'point'";
-constexpr std::string_view use_coat = "use 'roughsubstrate' or 'roughconductor'";
-constexpr std::string_view no_relief = "use 'normalmap', or its BSDF alone";
+constexpr std::string_view use_coat = "use 'principled' or 'roughplastic'";
 
 constexpr ForeignName names[] = {
     {"tag", "medium", "", vacuum},
@@ -101,29 +100,22 @@ constexpr ForeignName names[] = {
     {"bsdf", "lambert", "diffuse", ""},
     {"bsdf", "matte", "diffuse", ""},
     {"bsdf", "glass", "dielectric", ""},
-    {"bsdf", "thindielectric", "",
-     "leave the surface out, or model both sides of the pane with 'dielectric'"},
-    {"bsdf", "conductor", "", "use 'mirror', or 'roughconductor' with a small alpha"},
-    {"bsdf", "smooth_conductor", "", "use 'mirror', or 'roughconductor' with a small alpha"},
+    {"bsdf", "smooth_conductor", "conductor", ""},
     {"bsdf", "metal", "roughconductor", ""},
     {"bsdf", "roughmetal", "roughconductor", ""},
     {"bsdf", "roughglass", "roughdielectric", ""},
     {"bsdf", "frosted_glass", "roughdielectric", ""},
-    {"bsdf", "plastic", "", "use 'microfacet' with a small alpha"},
-    {"bsdf", "roughplastic", "", "use 'microfacet' or 'roughsubstrate'"},
     {"bsdf", "substrate", "roughsubstrate", ""},
     {"bsdf", "coating", "", use_coat},
     {"bsdf", "disney", "", use_coat},
     {"bsdf", "disney_brdf", "", use_coat},
     {"bsdf", "disney_bsdf", "", use_coat},
-    {"bsdf", "principled", "", use_coat},
     {"bsdf", "ward", "", "use 'roughconductor' or 'phong'"},
     {"bsdf", "blinn", "", "use 'phong'"},
     {"bsdf", "blinn_phong", "", "use 'phong'"},
     {"bsdf", "oren_nayar", "", "use 'diffuse'"},
     {"bsdf", "blendbsdf", "blend", ""},
     {"bsdf", "mix", "blend", ""},
-    {"bsdf", "bumpmap", "", no_relief},
 
     {"shape", "plane", "", "use 'rectangle', or an 'obj' mesh"},
     {"shape", "quad", "rectangle", ""},
@@ -168,11 +160,9 @@ constexpr ForeignName names[] = {
     {"texture", "imagetexture", "", use_image_texture},
     {"texture", "image", "", use_image_texture},
     {"texture", "imagemap", "", use_image_texture},
-    {"texture", "bitmap", "", use_image_texture},
     {"texture", "png_texture", "", use_image_texture},
     {"texture", "constanttexture", "", "use 'constant_color'"},
     {"texture", "constant", "", "use 'constant_color'"},
-    {"texture", "checkerboard", "checkerboard_color", ""},
     {"texture", "checkers", "checker", ""},
 
     {"camera", "pinhole", "perspective", ""},

@@ -362,27 +362,6 @@ constexpr Ignored ignored[] = {
     {"emitter", "envmap", "mis_compensation"},
 };
 
-// Rows and presets that wait for plugins and parameters which are being written.
-constexpr Awaited awaited[] = {
-    {"bsdf", "thindielectric"},
-    {"bsdf", "conductor"},
-    {"bsdf", "plastic"},
-    {"bsdf", "roughplastic"},
-    {"bsdf", "principled"},
-    {"bsdf", "principledthin"},
-    {"bsdf", "bumpmap"},
-    {"bsdf", "roughconductor"}, // with exact Fresnel
-    {"bsdf", "roughdielectric"},
-    {"bsdf", "dielectric", "specularReflectance"},
-    {"bsdf", "dielectric", "specularTransmittance"},
-    {"bsdf", "normalmap", "useShadowing"},
-    {"bsdf", "normalmap", "flipInvalidNormals"},
-    {"texture", "bitmap"},
-    {"texture", "checkerboard"},
-    {"texture", "rawconstant"},
-    {"texture", "meshattribute"},
-};
-
 constexpr Vocabulary mitsuba3 = {.name = "mitsuba3",
                                  .tags = tags,
                                  .types = types,
@@ -392,8 +371,7 @@ constexpr Vocabulary mitsuba3 = {.name = "mitsuba3",
                                  .ignored = ignored,
                                  .complete = true,
                                  .syntax = mitsuba_syntax,
-                                 .order = order_mitsuba,
-                                 .awaited = awaited};
+                                 .order = order_mitsuba};
 
 } // namespace
 

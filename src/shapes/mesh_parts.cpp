@@ -178,15 +178,4 @@ std::vector<Vec3f> angle_weighted_normals(const MeshData& mesh)
     return normals;
 }
 
-Barycentric barycentric_of(const TriangleEdges& triangle, const Vec3f& point)
-{
-    const Vec3d normal = triangle_cross(triangle);
-    const Vec3d from_corner = Vec3d(point) - triangle.corner;
-    const double scale = 1.0 / length_squared(normal);
-    const double u = dot(cross(from_corner, triangle.edge2), normal) * scale;
-    const double v = dot(cross(triangle.edge1, from_corner), normal) * scale;
-    if (!std::isfinite(u) || !std::isfinite(v)) return {1.0 / 3.0, 1.0 / 3.0};
-    return {u, v};
-}
-
 } // namespace plumb

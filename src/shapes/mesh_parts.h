@@ -36,7 +36,4 @@ void tidy_mesh(MeshData& mesh);
 // "Computing Vertex Normals from Polygonal Facets"), of unit length; +z for vertices without a direction.
 std::vector<Vec3f> angle_weighted_normals(const MeshData& mesh);
 
-// Of the point of the triangle's plane that is nearest to `point`.
-Barycentric barycentric_of(const TriangleEdges& triangle, const Vec3f& point);
-
 } // namespace plumb

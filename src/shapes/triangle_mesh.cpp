@@ -102,7 +102,9 @@ SurfacePoint TriangleMesh::surface_at(const RayD& ray, std::uint32_t primitive) 
                                        : normalize(Vec3f(-ray.direction));
     const Frame shading(shading_normal(primitive, b, geometric_normal));
     const float clearance = triangle_clearance(t, geometric_normal, normal_length);
-    return {position(edges, b), clearance, geometric_normal, primitive, shading, 0, uv(primitive, b)};
+    SurfacePoint at{position(edges, b), clearance, geometric_normal, primitive, shading, 0, uv(primitive, b)};
+    at.barycentric = Vec2f(static_cast<float>(b.u), static_cast<float>(b.v));
+    return at;
 }
 
 Tangents TriangleMesh::tangents(const SurfacePoint& at) const
@@ -199,9 +201,8 @@ std::optional<Color> TriangleMesh::attribute(std::string_view name, const Surfac
     if (found == mesh_.attributes.end()) return std::nullopt;
     if (found->per_face) return found->color(at.primitive);
     const MeshData::Triangle& t = mesh_.triangles[at.primitive];
-    const Barycentric b = barycentric_of(corners(at.primitive).edges(), at.position);
-    return found->color(t[0]) * static_cast<float>(1.0 - b.u - b.v) +
-           found->color(t[1]) * static_cast<float>(b.u) + found->color(t[2]) * static_cast<float>(b.v);
+    const auto [u, v] = at.barycentric;
+    return found->color(t[0]) * (1.f - u - v) + found->color(t[1]) * u + found->color(t[2]) * v;
 }
 
 TriangleMesh::Face TriangleMesh::face(std::uint32_t primitive) const

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "model/plugin.h"
+#include "plumb/model/surface.h"
 #include "plumb/model/texture.h"
 #include "textures/two_colors.h"
 
@@ -45,7 +46,10 @@ public:
     float max_value() const override { return colors_.max_value(); }
 
 private:
-    Color color_at(const Vec2f& uv) const override { return colors_.at(uv.x * scale_.x, uv.y * scale_.y); }
+    Color color_at(const SurfacePoint& at) const override
+    {
+        return colors_.at(at.uv.x * scale_.x, at.uv.y * scale_.y);
+    }
 
     TwoColors colors_;
     Vec2f scale_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "model/plugin.h"
+#include "plumb/model/surface.h"
 #include "plumb/model/texture.h"
 #include "textures/bitmap.h"
 
@@ -32,11 +33,24 @@ public:
     std::uint64_t memory_bytes() const override { return bitmap_.memory_bytes(); }
 
 private:
-    Color color_at(const Vec2f& uv) const override
+    Color color_at(const SurfacePoint& at) const override
     {
-        const float x = uv.x * static_cast<float>(bitmap_.width()) - 0.5f;
-        const float y = (1.f - uv.y) * static_cast<float>(bitmap_.height()) - 0.5f;
-        return bitmap_.bilinear(x, y, Bitmap::Rows::repeat);
+        const Vec2f place = place_in_image(at.uv);
+        return bitmap_.bilinear(place.x, place.y, Bitmap::Wrap::repeat);
+    }
+
+    Vec2f slope(const SurfacePoint& at) const override
+    {
+        const Vec2f place = place_in_image(at.uv);
+        const Vec2f by_texel = bitmap_.slope(place.x, place.y, Bitmap::Wrap::repeat);
+        return {by_texel.x * static_cast<float>(bitmap_.width()),
+                -by_texel.y * static_cast<float>(bitmap_.height())};
+    }
+
+    Vec2f place_in_image(const Vec2f& uv) const
+    {
+        return {uv.x * static_cast<float>(bitmap_.width()) - 0.5f,
+                (1.f - uv.y) * static_cast<float>(bitmap_.height()) - 0.5f};
     }
 
     Bitmap bitmap_;

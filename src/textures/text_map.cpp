@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "model/plugin.h"
+#include "plumb/model/surface.h"
 #include "plumb/model/texture.h"
 #include "textures/bitmap.h"
 
@@ -43,12 +44,20 @@ public:
     std::uint64_t memory_bytes() const override { return bitmap_.memory_bytes(); }
 
 private:
-    Color color_at(const Vec2f& uv) const override
+    Color color_at(const SurfacePoint& at) const override
     {
-        const float x = (1.f - uv.x) * static_cast<float>(bitmap_.width());
-        const float y = (1.f - uv.y) * static_cast<float>(bitmap_.height());
-        return bitmap_.bilinear(x, y, Bitmap::Rows::repeat);
+        const Vec2f place = place_in_image(at.uv);
+        return bitmap_.bilinear(place.x, place.y, Bitmap::Wrap::repeat);
     }
+
+    Vec2f slope(const SurfacePoint& at) const override
+    {
+        const Vec2f place = place_in_image(at.uv);
+        return -bitmap_.slope(place.x, place.y, Bitmap::Wrap::repeat) * size();
+    }
+
+    Vec2f size() const { return {static_cast<float>(bitmap_.width()), static_cast<float>(bitmap_.height())}; }
+    Vec2f place_in_image(const Vec2f& uv) const { return (Vec2f(1.f) - uv) * size(); }
 
     Bitmap bitmap_;
 };

@@ -77,6 +77,8 @@ public:
                                         static_cast<std::size_t>(data.height) * channels.size());
     }
 
+    std::optional<ByteImage> read_bytes(const std::string&) const override { return std::nullopt; }
+
     DecodedPicture read(const std::string& name) const override
     {
         const TextPicture text = read_text_picture(name);

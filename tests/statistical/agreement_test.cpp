@@ -13,6 +13,11 @@ class Phong;
 class RoughConductor;
 class RoughDielectric;
 class RoughSubstrate;
+class Plastic;
+class RoughPlastic;
+class ThinDielectric;
+class Principled;
+class PrincipledThin;
 } // namespace plumb
 
 using namespace plumb;
@@ -87,8 +92,33 @@ std::vector<Setting> settings()
         scene.environment(Color(0.5f, 0.7f, 1.f)).directional_light(Vec3f(1, 1, 0.5f), Color(1.5f));
         add_balls(scene, frosted, metal);
     };
+    const MakeBsdf gold = make<RoughConductor>(bsdf("roughconductor")
+                                                   .string("material", "Au")
+                                                   .string("distribution", "ggx")
+                                                   .number("alphaU", 0.2)
+                                                   .number("alphaV", 0.5));
+    const MakeBsdf plastic =
+        make<Plastic>(bsdf("plastic").color("diffuseReflectance", Color(0.2f, 0.5f, 0.1f)));
+    const MakeBsdf rough_plastic = make<RoughPlastic>(
+        bsdf("roughplastic").number("alpha", 0.2).string("distribution", "ggx").boolean("nonlinear", true));
+    const MakeBsdf pane = make<ThinDielectric>(bsdf("thindielectric").number("intIOR", 1.8));
+    const MakeBsdf lacquer = make<Principled>(bsdf("principled")
+                                                  .color("baseColor", Color(0.7f, 0.3f, 0.1f))
+                                                  .number("roughness", 0.6)
+                                                  .number("metallic", 0.3)
+                                                  .number("anisotropic", 0.5)
+                                                  .number("specTrans", 0.5)
+                                                  .number("sheen", 0.5)
+                                                  .number("clearcoat", 0.5));
+    const MakeBsdf leaf = make<PrincipledThin>(bsdf("principledthin")
+                                                   .color("baseColor", Color(0.3f, 0.6f, 0.2f))
+                                                   .number("specTrans", 0.4)
+                                                   .number("diffTrans", 0.8));
     return {
         {"diffuse", room_with(diffuse(0.5f), painted)},
+        {"anisotropic gold and plastic", room_with(gold, plastic)},
+        {"rough plastic and a thin pane", room_with(rough_plastic, pane)},
+        {"principled and principled thin", room_with(lacquer, leaf)},
         {"glossy", room_with(metal, varnish)},
         {"glossy and phong", room_with(blend, phong)},
         {"caustics", room_with(glass(), mirror())},

@@ -231,8 +231,9 @@ TEST_CASE("every texture has the mean and the bounds that it says", "[statistica
             const Color color = texture->color(uv);
             CHECK(min_component(color) >= texture->min_value() - 1e-6f);
             CHECK(max_component(color) <= texture->max_value() + 1e-6f);
-            CHECK(texture->scalar(uv) == luminance(color));
+            CHECK(texture->number(uv) == number_of(color));
         }
+        if (texture->reads_attributes()) continue; // the mean is that of a mesh
         for (int channel = 0; channel < 3; ++channel)
             check_mean(
                 "mean of " + sample->text(), static_cast<double>(texture->mean()[channel]),

@@ -44,6 +44,44 @@ std::vector<BsdfCase> make_cases()
         {glass("roughdielectric", 1.33, 1.0).number("alpha", 0.5).color("ka", Color(1.f, 0.5f, 0.2f)), 0.5},
         {glass("roughdielectric", 1.0, 1.8).number("alpha", 0.3), 0.3},
         {glass("roughdielectric", 1.3, 1.3).color("ka", Color(0.8f, 0.9f, 1.f)), 1},
+        {bsdf("conductor").string("material", "Au"), 1},
+        {bsdf("conductor").color("eta", Color(0.f)).color("k", Color(0.f)), 1},
+        {bsdf("thindielectric"), 1},
+        {glass("thindielectric", 1.0, 1.5), 1},
+        {bsdf("roughconductor").string("material", "Cu").number("alpha", 0.3).string("distribution", "ggx"),
+         0.3},
+        {bsdf("roughconductor").string("distribution", "ggx").number("alphaU", 0.3).number("alphaV", 0.6),
+         0.3},
+        {bsdf("roughconductor").number("alphaU", 0.6).number("alphaV", 0.2), 0.2},
+        {glass("roughdielectric", 1.5, 1.0).number("alpha", 0.3).string("distribution", "ggx"), 0.3},
+        {glass("roughdielectric", 1.5, 1.0)
+             .string("distribution", "ggx")
+             .number("alphaU", 0.2)
+             .number("alphaV", 0.5)
+             .color("specularReflectance", Color(0.9f, 0.5f, 0.3f))
+             .color("specularTransmittance", Color(0.1f, 0.5f, 0.9f)),
+         0.2},
+        {bsdf("microfacet").string("distribution", "ggx").number("alphaV", 0.4), 0.1},
+        {bsdf("roughsubstrate").string("distribution", "ggx").number("alpha", 0.4), 0.4},
+        {bsdf("plastic"), 1},
+        {glass("plastic", 1.9, 1.0).color("diffuseReflectance", Color(1.f, 0.3f, 0.f)), 1},
+        {glass("plastic", 1.0, 1.3).color("diffuseReflectance", Color(1.f)).boolean("nonlinear", true), 1},
+        {bsdf("roughplastic"), 0.1},
+        {bsdf("roughplastic").number("alpha", 0.5).color("diffuseReflectance", Color(1.f, 0.5f, 0.f)), 0.5},
+        {glass("roughplastic", 1.9, 1.0)
+             .string("distribution", "ggx")
+             .number("alpha", 0.3)
+             .color("diffuseReflectance", Color(1.f))
+             .boolean("nonlinear", true),
+         0.3},
+        {bsdf("principled"), 0.25},
+        {bsdf("principled").number("roughness", 0.4).number("metallic", 0.7).number("anisotropic", 0.6), 0.1},
+        {bsdf("principled").number("roughness", 0.7).number("specTrans", 0.8).number("eta", 1.4), 0.3},
+        {bsdf("principled").number("clearcoat", 1.0).number("sheen", 1.0).number("flatness", 0.5), 0.1},
+        {bsdf("principled").number("specTrans", 1.0).number("roughness", 0.6).number("specTint", 0.5), 0.3},
+        {bsdf("principledthin").number("specTrans", 0.6).number("diffTrans", 0.7).number("roughness", 0.6),
+         0.2},
+        {bsdf("principledthin").number("diffTrans", 1.3).number("sheen", 1.0).number("flatness", 1.0), 1},
         {bsdf("phong"), 1},
         {bsdf("phong")
              .color("specular-coefficients", Color(0.3f))

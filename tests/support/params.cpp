@@ -18,7 +18,7 @@ public:
     float max_value() const override { return std::max(max_component(left_), max_component(right_)); }
 
 private:
-    Color color_at(const Vec2f& uv) const override { return uv.x < 0.5f ? left_ : right_; }
+    Color color_at(const SurfacePoint& at) const override { return at.uv.x < 0.5f ? left_ : right_; }
 
     Color left_;
     Color right_;

@@ -216,9 +216,9 @@ TEST_CASE("BSDFs reject parameters out of range, with the value and the way out"
     CHECK(only(bsdf("diffuse").color("albedo", Color(0.5f, 1.5f, 0.5f)).complaints<Diffuse, Bsdf>()) ==
           "error: albedo must be in [0, 1], not 0.5 1.5 0.5");
     CHECK(only(bsdf("microfacet").number("alpha", 1.5).complaints<Microfacet, Bsdf>()) ==
-          "error: alpha must be in (0, 1], not 1.5");
-    CHECK(only(bsdf("roughconductor").number("alpha", 0.0).complaints<RoughConductor, Bsdf>()) ==
-          "error: alpha must be in (0, 1], not 0");
+          "error: alpha must be in [0, 1], not 1.5");
+    CHECK(only(bsdf("roughconductor").number("alpha", -0.1).complaints<RoughConductor, Bsdf>()) ==
+          "error: alpha must be in [0, 1], not -0.1");
     CHECK(only(bsdf("roughconductor").color("R0", Color(2.f)).complaints<RoughConductor, Bsdf>()) ==
           "error: R0 must be in [0, 1], not 2 2 2");
     CHECK(only(bsdf("dielectric").number("intIOR", -1.5).complaints<Dielectric, Bsdf>()) ==

@@ -84,7 +84,7 @@ TEST_CASE("well-known names of other renderers are answered", "[unit][foreign_na
                   "' is not supported; Plumb renders surfaces in a vacuum only; use 'path_mis'");
     CHECK(foreign_type("bsdf", "glass") == "bsdf 'glass' is 'dielectric' here");
     CHECK(foreign_type("bsdf", "disneyBSDF") ==
-          "bsdf 'disneyBSDF' is not supported; use 'roughsubstrate' or 'roughconductor'");
+          "bsdf 'disneyBSDF' is not supported; use 'principled' or 'roughplastic'");
     CHECK(foreign_type("emitter", "env_map") == "emitter 'env_map' is 'environment' here");
     CHECK(foreign_type("shape", "cube") == "shape 'cube' is not supported; use an 'obj' mesh");
     CHECK(foreign_tag("rgb") == "<rgb> is <color> here");

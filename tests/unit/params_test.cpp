@@ -69,8 +69,8 @@ TEST_CASE("parameters that are not given have their default", "[unit][params]")
     CHECK(none->vector2("v2", Vec2f(1, 2)) == Vec2f(1, 2));
     CHECK(none->color("k", Color(0.25f)) == Color(0.25f));
     CHECK(none->transform("t").is_identity());
-    CHECK(none->texture("tx", Color(0.5f))->color({0, 0}) == Color(0.5f));
-    CHECK(none->scalar_texture("st", 0.5f, Range::any())->scalar({0, 0}) == Approx(0.5f));
+    CHECK(none->color_texture("tx", Color(0.5f))->color({0, 0}) == Color(0.5f));
+    CHECK(none->number_texture("st", 0.1f, Range::any())->number({0, 0}) == 0.1f);
     CHECK_FALSE(none->has("h"));
     none->reject_unused();
     CHECK(none.diagnostics().all().empty());
@@ -90,8 +90,9 @@ TEST_CASE("parameters have the value that was given", "[unit][params]")
     CHECK(OneParameter("point", Numbers{1, 2, 3})->vector("x", Vec3f(0)) == Vec3f(1, 2, 3));
     CHECK(OneParameter("point", Numbers{1, 2})->vector2("x", Vec2f(0)) == Vec2f(1, 2));
     CHECK(OneParameter("color", Numbers{1, 2, 3})->color("x") == Color(1, 2, 3));
-    CHECK(OneParameter("color", Numbers{1, 2, 3})->texture("x", Color(0.f))->color({0, 0}) == Color(1, 2, 3));
-    CHECK(OneParameter("float", 0.5)->scalar_texture("x", 0.f, Range::any())->color({0, 0}) == Color(0.5f));
+    CHECK(OneParameter("color", Numbers{1, 2, 3})->color_texture("x", Color(0.f))->color({0, 0}) ==
+          Color(1, 2, 3));
+    CHECK(OneParameter("float", 0.1)->number_texture("x", 0.f, Range::any())->number({0, 0}) == 0.1f);
     CHECK(OneParameter("transform", Transform::translate({1, 2, 3}))->transform("x").point(Vec3f(0)) ==
           Vec3f(1, 2, 3));
 }
@@ -226,7 +227,7 @@ TEST_CASE("parameters that nobody asks for", "[unit][params]")
 
     OneParameter texture;
     texture->add_texture({"albdo", test::two_tone_texture(Color(0.f), Color(1.f)), {}});
-    texture->texture("albedo", Color(0.5f));
+    texture->color_texture("albedo", Color(0.5f));
     texture->reject_unused();
     CHECK(texture.error() == ": unknown texture 'albdo' for bsdf 'diffuse'; did you mean 'albedo'?");
 }
@@ -238,14 +239,15 @@ TEST_CASE("textures in place of values", "[unit][params]")
     at.file = "texture";
     params->add_texture({"t", test::two_tone_texture(Color(0.25f), Color(2.f)), at});
     CHECK(params->has("t"));
-    CHECK(params->texture("t", Color(0.f))->color({0.25f, 0.f}) == Color(0.25f));
+    CHECK(params->color_texture("t", Color(0.f))->color({0.25f, 0.f}) == Color(0.25f));
     CHECK(params.diagnostics().all().empty());
-    CHECK(params->texture("t", Color(0.125f), Range::closed(0, 1))->color({0.25f, 0.f}) == Color(0.125f));
+    CHECK(params->color_texture("t", Color(0.125f), Range::closed(0, 1))->color({0.25f, 0.f}) ==
+          Color(0.125f));
     CHECK(params.error() == "texture: t must be in [0, 1] everywhere, but the texture reaches 2");
 
     OneParameter both("color", Numbers{1, 1, 1});
     both->add_texture({"x", test::two_tone_texture(Color(0.25f), Color(2.f)), at});
-    both->texture("x", Color(0.f));
+    both->color_texture("x", Color(0.f));
     CHECK(both.error() == "texture: x is given twice, as a value and as a texture");
 }
 

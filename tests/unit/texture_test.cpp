@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "plumb/image/image.h"
+#include "plumb/model/surface.h"
 #include "support/catch.h"
 #include "support/params.h"
 #include "support/random.h"
@@ -12,6 +13,10 @@ class Checkerboard;
 class ConstantTexture;
 class TextMap;
 class ImageTexture;
+class BitmapTexture;
+class Quarters;
+class RawConstant;
+class MeshAttribute;
 } // namespace plumb
 
 using namespace plumb;
@@ -51,7 +56,7 @@ void check_statistics(const Texture& texture, float tolerance)
         const Color color = texture.color(uv);
         CHECK(min_component(color) >= texture.min_value() - 1e-6f);
         CHECK(max_component(color) <= texture.max_value() + 1e-6f);
-        CHECK(texture.scalar(uv) == luminance(color));
+        CHECK(texture.number(uv) == number_of(color));
     }
 }
 
@@ -158,7 +163,7 @@ TEST_CASE("checkerboard of numbers, and its defaults", "[unit][texture]")
                              .build<Checkerboard, Texture>();
     CHECK(numbers->color({0.5f, 0.5f}) == Color(0.25f));
     CHECK(numbers->color({1.5f, 0.5f}) == Color(0.75f));
-    CHECK(numbers->scalar({1.5f, 0.5f}) == Approx(0.75f));
+    CHECK(numbers->number({1.5f, 0.5f}) == 0.75f);
     const auto plain = ParamsBuilder("texture", "checkerboard_color").build<Checkerboard, Texture>();
     CHECK(plain->color({0.5f, 0.5f}) == Color(0.f));
     CHECK(plain->color({0.5f, 1.5f}) == Color(1.f));
@@ -269,4 +274,153 @@ TEST_CASE("image textures with values that are not finite are errors", "[unit][t
                              .string("filepath", "a.exr");
     CHECK_THROWS_WITH((builder.build<ImageTexture, Texture>()),
                       ContainsSubstring("pixel (2, 1) is not finite"));
+}
+
+namespace {
+
+// One row: 0, 1, 2, 3 in red.
+ParamsBuilder ramp(const TempDirectory& directory)
+{
+    Image image(4, 1);
+    for (int x = 0; x < 4; ++x) image.pixel(x, 0)[0] = static_cast<float>(x);
+    write_image(directory / "ramp.exr", image);
+    return ParamsBuilder("texture", "bitmap").directory(directory.path()).string("filename", "ramp.exr");
+}
+
+// At the middles of 16 equal parts of u.
+void check_row(const Texture& texture, const std::vector<float>& expected)
+{
+    for (std::size_t i = 0; i < 16; ++i) {
+        CAPTURE(i);
+        const Color color = texture.color({(static_cast<float>(i) + 0.5f) / 16.f, 0.3f});
+        CHECK(color.r == Approx(expected[i]).margin(1e-6));
+        CHECK(color.g == 0.f);
+    }
+}
+
+} // namespace
+
+TEST_CASE("bitmap has the wrap modes and filters of Mitsuba 3", "[unit][texture][mitsuba]")
+{
+    const TempDirectory directory;
+    const std::vector<float> edges = {0.f,    0.f,    .125f,  .375f,  .625f,  .875f,  1.125f, 1.375f,
+                                      1.625f, 1.875f, 2.125f, 2.375f, 2.625f, 2.875f, 3.f,    3.f};
+    std::vector<float> repeated = edges;
+    repeated[0] = 1.125f, repeated[1] = 0.375f, repeated[14] = 2.625f, repeated[15] = 1.875f;
+    check_row(*ramp(directory).build<BitmapTexture, Texture>(), repeated);
+    check_row(*ramp(directory).string("wrap", "clamp").build<BitmapTexture, Texture>(), edges);
+    check_row(*ramp(directory).string("wrap", "mirror").build<BitmapTexture, Texture>(), edges);
+    check_row(*ramp(directory).string("filter", "nearest").build<BitmapTexture, Texture>(),
+              {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3});
+    const Transform to_uv = Transform::translate({0.25, 0, 0}) * *Transform::scale({2, 1, 1});
+    check_row(
+        *ramp(directory).string("filter", "nearest").transform("toUv", to_uv).build<BitmapTexture, Texture>(),
+        {1, 1, 2, 2, 3, 3, 0, 0, 1, 1, 2, 2, 3, 3, 0, 0});
+
+    // Beyond the unit square: every second copy is mirrored; clamped, the edge goes on.
+    const auto mirrored = ramp(directory).string("wrap", "mirror").build<BitmapTexture, Texture>();
+    const auto clamped = ramp(directory).string("wrap", "clamp").build<BitmapTexture, Texture>();
+    for (const float u : {0.05f, 0.3f, 0.77f}) {
+        CHECK(mirrored->color({-u, 0.f}).r == Approx(mirrored->color({u, 0.f}).r).margin(1e-5));
+        CHECK(mirrored->color({2.f + u, 0.f}).r == Approx(mirrored->color({u, 0.f}).r).margin(1e-5));
+        CHECK(clamped->color({-u, 0.f}).r == 0.f);
+        CHECK(clamped->color({1.f + u, 7.f}).r == 3.f);
+    }
+}
+
+TEST_CASE("bitmap stands upright or on its head, and keeps 8 bits", "[unit][texture]")
+{
+    const TempDirectory directory;
+    write_image(directory / "a.png", small_picture());
+    const auto builder =
+        ParamsBuilder("texture", "bitmap").directory(directory.path()).string("filename", "a.png");
+    const auto upright = ParamsBuilder(builder).build<BitmapTexture, Texture>();
+    const auto on_head = ParamsBuilder(builder).string("vOrigin", "top").build<BitmapTexture, Texture>();
+    const auto raw = ParamsBuilder(builder).boolean("raw", true).build<BitmapTexture, Texture>();
+    for (int y = 0; y < 2; ++y)
+        for (int x = 0; x < 3; ++x) {
+            const float u = (static_cast<float>(x) + 0.5f) / 3.f, v = (static_cast<float>(y) + 0.5f) / 2.f;
+            check_close(upright->color({u, 1.f - v}), decoded(texel(x, y)));
+            check_close(on_head->color({u, v}), decoded(texel(x, y)));
+            check_close(raw->color({u, 1.f - v}), texel(x, y));
+            CHECK(raw->number(Vec2f(u, 1.f - v)) == Approx(luminance(texel(x, y))).margin(1e-5));
+        }
+    check_statistics(*upright, 1e-4f);
+    CHECK(upright->memory_bytes() == 3 * 2 * 3);
+    CHECK_THAT((ParamsBuilder(builder).string("wrap", "black").complaints<BitmapTexture, Texture>().at(0)),
+               ContainsSubstring("wrap must be 'repeat', 'mirror' or 'clamp', not 'black'"));
+}
+
+TEST_CASE("slopes of image textures are those of their numbers", "[unit][texture]")
+{
+    const TempDirectory directory;
+    write_image(directory / "a.png", small_picture());
+    const Transform to_uv =
+        Transform::translate({0.3, 0.1, 0}) * Transform::rotate({0, 0, 1}, 30) * *Transform::scale({2, 3, 1});
+    std::vector<std::unique_ptr<Texture>> textures;
+    for (const char* wrap : {"repeat", "mirror", "clamp"})
+        textures.push_back(ParamsBuilder("texture", "bitmap")
+                               .directory(directory.path())
+                               .string("filename", "a.png")
+                               .string("wrap", wrap)
+                               .transform("toUv", to_uv)
+                               .build<BitmapTexture, Texture>());
+    textures.push_back(ParamsBuilder("texture", "imagetexture_color3f")
+                           .directory(directory.path())
+                           .string("filepath", "a.png")
+                           .build<ImageTexture, Texture>());
+    textures.push_back(ParamsBuilder("texture", "textmap")
+                           .directory(directory.path())
+                           .string("filename", "a.png")
+                           .build<TextMap, Texture>());
+    for (const auto& texture : textures) {
+        TestRandom random(5);
+        int wrong = 0;
+        for (int i = 0; i < 300; ++i) {
+            SurfacePoint at;
+            at.uv = Vec2f(float(random.between(-2, 2)), float(random.between(-2, 2)));
+            constexpr float step = 1e-3f;
+            const auto difference = [&](const Vec2f& by) {
+                return (texture->number(at.uv + by) - texture->number(at.uv - by)) / (2.f * step);
+            };
+            const Vec2f slope = texture->slope(at);
+            const bool right = std::abs(slope.x - difference({step, 0.f})) < 0.02f &&
+                               std::abs(slope.y - difference({0.f, step})) < 0.02f;
+            wrong += right ? 0 : 1;
+        }
+        CHECK(wrong < 15); // those where a step crosses the line between two texels
+    }
+}
+
+TEST_CASE("checkerboard has quarters, and numbers may be swapped", "[unit][texture][mitsuba]")
+{
+    const auto plain = ParamsBuilder("texture", "checkerboard").build<Quarters, Texture>();
+    CHECK(plain->color({0.25f, 0.25f}) == Color(0.4f));
+    CHECK(plain->color({0.75f, 0.25f}) == Color(0.2f));
+    CHECK(plain->color({-0.25f, -0.25f}) == Color(0.4f));
+    CHECK(plain->number(Vec2f(0.25f, 0.25f)) == 0.4f);
+    const auto scaled = ParamsBuilder("texture", "checkerboard")
+                            .transform("toUv", *Transform::scale({2, 1, 1}))
+                            .boolean("swapNumbers", true)
+                            .build<Quarters, Texture>();
+    CHECK(scaled->color({0.125f, 0.25f}) == Color(0.4f));
+    CHECK(scaled->color({0.375f, 0.25f}) == Color(0.2f));
+    CHECK(scaled->number(Vec2f(0.125f, 0.25f)) == 0.2f);
+    check_statistics(*plain, 1e-3f);
+}
+
+TEST_CASE("rawconstant takes numbers below zero, and meshattribute only names of attributes",
+          "[unit][texture]")
+{
+    const auto data = ParamsBuilder("texture", "rawconstant")
+                          .vector("value", Vec3f(-1.f, 2.f, 0.5f))
+                          .build<RawConstant, Texture>();
+    CHECK(data->color({0.f, 0.f}) == Color(-1.f, 2.f, 0.5f));
+    const auto number =
+        ParamsBuilder("texture", "rawconstant").number("value", -0.1).build<RawConstant, Texture>();
+    CHECK(number->number(Vec2f(0.f)) == -0.1f);
+    CHECK(ParamsBuilder("texture", "meshattribute")
+              .string("attribute", "color")
+              .complaints<MeshAttribute, Texture>() ==
+          std::vector<std::string>{"error: attribute must begin with 'vertex_' or 'face_', not 'color'"});
 }

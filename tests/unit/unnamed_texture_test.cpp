@@ -37,10 +37,12 @@ TEST_CASE("an unnamed texture is taken where only one parameter can be one", "[u
 
 TEST_CASE("an unnamed texture that could be for several parameters gets their names", "[unit][texture]")
 {
-    CHECK_THAT(errors(with_texture("bsdf", "roughconductor", "")),
-               ContainsSubstring(
-                   "error: <texture> needs an attribute 'name', for bsdf 'roughconductor' takes several: "
-                   "name=\"alpha\" or name=\"R0\"\n"));
+    CHECK_THAT(
+        errors(with_texture("bsdf", "roughconductor", "")),
+        ContainsSubstring(
+            "error: <texture> needs an attribute 'name', for bsdf 'roughconductor' takes several: "
+            "name=\"alpha\", name=\"alphaU\", name=\"alphaV\", name=\"R0\", name=\"eta\", name=\"k\" or "
+            "name=\"specularReflectance\"\n"));
     CHECK_THAT(errors(with_texture("bsdf", "mirror", "")),
                ContainsSubstring("error: bsdf 'mirror' takes no texture\n"));
     CHECK_THAT(errors(with_texture("bsdf", "diffuse", "", "<color name='albedo' value='1,1,1'/>")),

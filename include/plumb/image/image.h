@@ -8,10 +8,13 @@
 
 #include "plumb/math/color.h"
 
+#include <array>
 #include <atomic>
+#include <cstdint>
 #include <filesystem>
 #include <future>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -65,6 +68,20 @@ private:
 // Reads any format that OpenImageIO reads. Integer formats become value / maximum; decode_srgb also undoes the sRGB
 // curve for 8-bit and 16-bit integer formats (floating-point formats are linear). Throws Error naming the file.
 Image read_image(const std::filesystem::path& path, bool decode_srgb);
+
+// An image file of 8-bit integers as it is: rows from the top, 1 or 3 channels (alpha is left out).
+struct ByteImage {
+    int width = 0;
+    int height = 0;
+    int channels = 0;
+    std::vector<std::uint8_t> values;
+};
+
+// Nothing if the file has values of another kind: read_image reads it. Throws as that does.
+std::optional<ByteImage> read_byte_image(const std::filesystem::path& path);
+
+// What the 8-bit values stand for: value / 255, through the sRGB curve if asked. The same as read_image gives.
+std::array<float, 256> byte_values(bool decode_srgb);
 
 // Channels of a rendered picture that do not say how it looks: those of layers, "variance.R" or "normal.X", and "contributing".
 inline bool is_layer_channel(const std::string& name)

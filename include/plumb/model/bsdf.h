@@ -80,6 +80,8 @@ public:
     virtual float opacity(const SurfacePoint& /*at*/) const { return 1.f; }
     // Whether f(wi, wo) / eta_i^2 = f(wo, wi) / eta_o^2 (Veach 1997, equation 5.14). Not so for bent normals.
     virtual bool is_reciprocal() const { return true; }
+    // Whether no more light leaves than arrives.
+    virtual bool conserves_energy() const { return true; }
     virtual BsdfValue evaluate(const SurfacePoint& at, const Vec3f& wi, const Vec3f& wo) const = 0;
     virtual std::optional<BsdfSample> sample(const SurfacePoint& at, const Vec3f& wi, float u_lobe,
                                              const Vec2f& u) const = 0;

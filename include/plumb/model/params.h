@@ -109,15 +109,21 @@ public:
     Vec3f vector(std::string_view name, const Vec3f& fallback) const;
     Vec2f vector2(std::string_view name, const Vec2f& fallback) const; // <vector> or <point> with two numbers
     Color color(std::string_view name, const Color& fallback, Range range = Range::at_least(0.0)) const;
-    Color color(std::string_view name) const;         // required, at least 0
+    Color color(std::string_view name) const; // required, at least 0
+    // A vector or colour of any finite values, or a number, which stands for three.
+    Color raw_values(std::string_view name, const Color& fallback) const;
     Transform transform(std::string_view name) const; // the identity if absent
     // Required; relative to the directory of the scene file. Where there is no such file it records the error and gives
     // the path all the same: reading it throws, and the loader knows that this has been reported.
     std::filesystem::path file(std::string_view name) const;
     // A colour or float parameter that a texture child of that name may replace; all its values must be in range.
-    std::shared_ptr<const Texture> texture(std::string_view name, const Color& fallback,
-                                           Range range = Range::at_least(0.0)) const;
-    std::shared_ptr<const Texture> scalar_texture(std::string_view name, float fallback, Range range) const;
+    std::shared_ptr<const ColorTexture> color_texture(std::string_view name, const Color& fallback,
+                                                      Range range = Range::at_least(0.0)) const;
+    std::shared_ptr<const NumberTexture> number_texture(std::string_view name, float fallback,
+                                                        Range range) const;
+    // For objects that take one texture, whatever its name, unless that has been asked for before: the name of the one that
+    // is there, else `name`.
+    std::string only_texture(std::string_view name) const;
 
     // The i-th child BSDF in the order of the file. Never null: where there is none, which is an error, or where it could not
     // be made, a black one. Whoever asks for more than one asks for their count first.
@@ -146,7 +152,8 @@ private:
     const Property* find(std::string_view name) const;
     const Property* find_tagged(std::string_view name, std::initializer_list<std::string_view> tags) const;
     const TextureChild* find_texture(std::string_view name) const;
-    std::shared_ptr<const Texture> texture_child(std::string_view name, const Range& range) const;
+    std::shared_ptr<const Texture> texture_child(std::string_view name) const;
+    bool reject_outside(std::string_view name, const Range& range, float smallest, float largest) const;
     Vec3f three_numbers(const Property* property, std::string_view name, const Vec3f& fallback) const;
     const SourceLocation& value_place(std::string_view name) const;
     void reject_unused_bsdfs() const;

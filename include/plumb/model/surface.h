@@ -28,6 +28,7 @@ struct alignas(16) SurfacePoint {
     const Bsdf* bsdf = nullptr;            // never null at a point that Scene returns
     const Emitter* emitter = nullptr;      // null where nothing is emitted
     const InstanceMap* instance = nullptr; // null unless the shape is in an instance
+    Vec2f barycentric{0.f};                // in a triangle: the weights of its second and third corner
 
     // A ray leaving in `direction` (any length), started off the surface on that side.
     Ray spawn_ray(const Vec3f& direction) const

@@ -13,6 +13,7 @@ public:
                                              const std::vector<std::string>& channels,
                                              bool clear) const override;
     DecodedPicture read(const std::string& name) const override;
+    std::optional<ByteImage> read_bytes(const std::string& name) const override;
     std::vector<unsigned char> encode(const PictureFile& picture) const override;
     std::vector<unsigned char> encode_words(const WordImage& image, const FillRows& fill) const override;
     void read_words(const std::string& name, const ChooseChannels& choose, const UseRow& use) const override;

@@ -107,6 +107,23 @@ DecodedPicture OiioModule::read(const std::string& name) const
     return picture;
 }
 
+std::optional<ByteImage> OiioModule::read_bytes(const std::string& name) const
+{
+    const QuietStandardError quiet;
+    const std::unique_ptr<OIIO::ImageInput> input = open_image(name);
+    const OIIO::ImageSpec spec = input->spec();
+    if (spec.format != OIIO::TypeUInt8 || spec.deep || spec.depth > 1) return std::nullopt;
+    const PixelRect data = data_window_of(spec);
+    check_size(data, static_cast<std::size_t>(std::max(spec.nchannels, 0)));
+    ByteImage image{data.width, data.height, spec.nchannels >= 3 ? 3 : 1, {}};
+    image.values.resize(static_cast<std::size_t>(data.width) * static_cast<std::size_t>(data.height) *
+                        static_cast<std::size_t>(image.channels));
+    const bool good = input->read_image(0, 0, 0, image.channels, OIIO::TypeUInt8, image.values.data());
+    const std::string reason = input->geterror();
+    if (!good || !reason.empty()) throw Error(one_line(reason));
+    return image;
+}
+
 std::vector<unsigned char> OiioModule::encode(const PictureFile& picture) const
 {
     return encode_image(picture.name, spec_of(picture), [&](OIIO::ImageOutput& output) {
