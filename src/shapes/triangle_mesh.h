@@ -27,6 +27,7 @@ public:
     bool has_solid_angle() const final { return rectangle_.has_value(); }
     float area() const final { return area_; }
     Box3f bounds() const final;
+    Box3f primitive_bounds(std::uint32_t primitive) const final;
     DirectionCone normals() const final;
     std::uint64_t triangle_count() const final { return mesh_.triangles.size(); }
     std::uint64_t memory_bytes() const final;
