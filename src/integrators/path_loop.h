@@ -32,10 +32,12 @@ struct PathState {
     bool delta = true;   // nothing but following the path finds what it sees: camera rays and delta bounces
     bool is_view = true; // the camera still looks along it, perhaps through panes that do not bend it
 
+    // Light that lies behind a pass is still looked for from the last vertex.
+    void pass(const BsdfSample& next) { throughput *= next.weight; }
+
     void extend(const Vertex& vertex, const BsdfSample& next)
     {
         throughput *= next.weight;
-        if (next.is_pass()) return; // light that lies on is still looked for from the last vertex
         eta_scale *= sqr(next.eta);
         receiver = vertex.receiver();
         pdf = next.pdf;
@@ -111,6 +113,7 @@ Color trace_path(const Technique& technique, Tracer& tracer, Sampler& sampler, R
     const auto end = [&](const char* why) {
         if (tracer.logging()) tracer.log(PathEvent::Kind::end, why);
     };
+    const bool may_pass = tracer.scene().has_null_surfaces();
     Color result(0.f);
     PathState path(ray.origin);
     int bounces = 0;
@@ -123,28 +126,29 @@ Color trace_path(const Technique& technique, Tracer& tracer, Sampler& sampler, R
         if (hit->emitter && tracer.scene().emitters_absorb())
             return end("an emitter absorbs the path"), result;
         const bool passes_only = bounces == technique.max_depth();
-        if (passes_only && (technique.counts_passes() || !hit->bsdf->lobes().has_any(Lobe::null)))
+        if (passes_only &&
+            (!may_pass || technique.counts_passes() || !hit->bsdf->lobes().has_any(Lobe::null)))
             return end("the path has its largest depth"), result;
 
         sampler.start_vertex(surfaces);
         const Vertex vertex(*hit, ray.direction);
         // The next direction before the shadow ray: the processor works on both at once.
         const std::optional<BsdfSample> next = technique.scatter(sampler, vertex);
-        if (!passes_only) {
-            if (technique.counts_passes()) tracer.limit_passes(passes_left(technique.max_depth(), bounces));
-            result += scattered(technique, tracer, sampler, path, vertex);
-        }
+        if (may_pass && technique.counts_passes())
+            tracer.limit_passes(passes_left(technique.max_depth(), bounces));
+        if (!passes_only) result += scattered(technique, tracer, sampler, path, vertex);
         if (!next) return end("the surface absorbs the path"), result;
-        if (passes_only && !next->is_pass()) return end("the path has its largest depth"), result;
-        path.extend(vertex, *next);
-        if (tracer.watched()) note_scatter(tracer, path, *next);
-        if (path.throughput.is_black()) return end("the throughput of the path is zero"), result;
-
-        if (next->is_pass()) {
+        if (may_pass && next->is_pass()) {
+            path.pass(*next);
+            if (tracer.watched()) note_scatter(tracer, path, *next);
             bounces += technique.counts_passes() ? 1 : 0;
             ray = hit->spawn_ray(ray.direction); // of which rounding must not make another
             continue;
         }
+        if (passes_only) return end("the path has its largest depth"), result;
+        path.extend(vertex, *next);
+        if (tracer.watched()) note_scatter(tracer, path, *next);
+        if (path.throughput.is_black()) return end("the throughput of the path is zero"), result;
         ++bounces;
         const bool last = bounces == technique.max_depth();
         if (last && !technique.counts_emission(path)) return end("nothing else can contribute"), result;

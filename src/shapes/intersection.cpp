@@ -10,11 +10,12 @@
 
 namespace plumb {
 
-std::optional<double> intersect_sphere(const RayD& ray, const Vec3f& center, float radius)
+namespace {
+
+// from_center: to the ray's origin.
+inline std::optional<double> meet_sphere(const Vec3d& from_center, const Vec3d& direction, double r,
+                                         double t_min, double t_max)
 {
-    const Vec3d& direction = ray.direction;
-    const Vec3d from_center = ray.origin - Vec3d(center);
-    const double r = radius;
     const double a = dot(direction, direction);
     const double b = -dot(from_center, direction);
 
@@ -29,10 +30,22 @@ std::optional<double> intersect_sphere(const RayD& ray, const Vec3f& center, flo
     const double q = b + std::copysign(std::sqrt(a * discriminant), b);
     const double t0 = std::min(c / q, q / a);
     const double t1 = std::max(c / q, q / a);
-    const auto in_range = [&ray](double t) { return t > ray.t_min && t < ray.t_max; };
+    const auto in_range = [=](double t) { return t > t_min && t < t_max; };
     if (in_range(t0)) return t0;
     if (in_range(t1)) return t1;
     return {};
+}
+
+} // namespace
+
+std::optional<double> intersect_sphere(const Ray& ray, const Vec3f& center, float radius)
+{
+    return meet_sphere(Vec3d(ray.origin) - Vec3d(center), Vec3d(ray.direction), radius, ray.t_min, ray.t_max);
+}
+
+std::optional<double> intersect_sphere(const RayD& ray, const Vec3f& center, float radius)
+{
+    return meet_sphere(ray.origin - Vec3d(center), ray.direction, radius, ray.t_min, ray.t_max);
 }
 
 } // namespace plumb

@@ -58,6 +58,7 @@ inline Barycentric intersect_triangle(const RayD& ray, const TriangleEdges& tria
 }
 
 // The smallest t with t_min < t < t_max at which the ray meets the sphere from outside or inside.
+std::optional<double> intersect_sphere(const Ray& ray, const Vec3f& center, float radius);
 std::optional<double> intersect_sphere(const RayD& ray, const Vec3f& center, float radius);
 
 } // namespace plumb

@@ -80,7 +80,7 @@ void check_factor(const std::string& name, const Scene& through, const Scene& op
             }
             return same_mean_outcome(first, scaled, 1e-3);
         },
-        20'000, level);
+        5'000, level);
 }
 
 } // namespace

@@ -181,7 +181,7 @@ TEST_CASE("tangents are the derivatives of the position by uv", "[statistical][s
             // Small, or what curvature leaves, which shrinks with the step.
             wrong += error < 0.005 || error < 0.5 * tangent_error(tangents, *at, *far) ? 0 : 1;
         }
-        CHECK(compared > 500);
+        CHECK(compared > 300);
         CHECK(wrong == 0);
     }
 }

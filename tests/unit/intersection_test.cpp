@@ -31,7 +31,7 @@ TEST_CASE("barycentric coordinates of the point that a ray was aimed at", "[unit
         // Aim is only as good as a float; seen at a grazing angle, or in a sliver, it misses by more.
         const Vec3f normal = cross(p[1] - p[0], p[2] - p[0]);
         if (std::abs(dot(normal, normalize(direction))) < 0.1f) continue;
-        const Barycentric b = intersect_triangle({origin, direction}, {p[0], p[1], p[2]});
+        const Barycentric b = intersect_triangle(Ray{origin, direction}, {p[0], p[1], p[2]});
         CHECK(length(point_of(p, b) - target) < 2e-5f);
     }
 }
@@ -42,7 +42,7 @@ TEST_CASE("barycentric coordinates stay inside the triangle", "[unit][intersecti
     const Vec3f p1(1, 0, 0);
     const Vec3f p2(0, 1, 0);
     const auto at = [&](float x, float y) {
-        return intersect_triangle({Vec3f(x, y, 1), Vec3f(0, 0, -1)}, {p0, p1, p2});
+        return intersect_triangle(Ray{Vec3f(x, y, 1), Vec3f(0, 0, -1)}, {p0, p1, p2});
     };
     for (const Vec2f& q : {Vec2f(-1e-3f, 0.5f), Vec2f(0.5f, -1e-3f), Vec2f(0.501f, 0.5f), Vec2f(2, -1),
                            Vec2f(-1, -1), Vec2f(3, 3)}) {
@@ -54,9 +54,9 @@ TEST_CASE("barycentric coordinates stay inside the triangle", "[unit][intersecti
     CHECK(at(0.25f, 0.5f).u == 0.25);
     CHECK(at(0.25f, 0.5f).v == 0.5);
     // In the plane of the triangle, or without area: some point of it.
-    const Barycentric edge_on = intersect_triangle({Vec3f(-1, 0.2f, 0), Vec3f(1, 0, 0)}, {p0, p1, p2});
+    const Barycentric edge_on = intersect_triangle(Ray{Vec3f(-1, 0.2f, 0), Vec3f(1, 0, 0)}, {p0, p1, p2});
     CHECK((edge_on.u >= 0.0 && edge_on.v >= 0.0 && edge_on.u + edge_on.v <= 1.0));
-    const Barycentric no_area = intersect_triangle({Vec3f(0, 0, 1), Vec3f(0, 0, -1)}, {p0, p1, p1});
+    const Barycentric no_area = intersect_triangle(Ray{Vec3f(0, 0, 1), Vec3f(0, 0, -1)}, {p0, p1, p1});
     CHECK((no_area.u >= 0.0 && no_area.v >= 0.0 && no_area.u + no_area.v <= 1.0));
 }
 

@@ -48,7 +48,7 @@ TEST_CASE("a rectangle without parameters is the unit square facing +z", "[unit]
     CHECK(square->bounds().max == Vec3f(0.5f, 0.5f, 0));
     CHECK(square->triangle_count() == 2);
     check_axes(*square, Vec3f(1, 0, 0), Vec3f(0, 1, 0));
-    const SurfacePoint at = square->surface_at({Vec3f(0.25f, -0.25f, 2), Vec3f(0, 0, -1)}, 0);
+    const SurfacePoint at = square->surface_at(Ray{Vec3f(0.25f, -0.25f, 2), Vec3f(0, 0, -1)}, 0);
     CHECK(at.position == Vec3f(0.25f, -0.25f, 0));
     CHECK(at.geometric_normal == Vec3f(0, 0, 1));
     CHECK(at.shading.n == Vec3f(0, 0, 1));
@@ -93,7 +93,7 @@ TEST_CASE("uv of a rectangle agree between hits and samples", "[unit][shape]")
         CHECK(sample.pdf == Approx(1.0));
         const Vec3f origin = sample.position + sample.normal;
         const std::uint32_t triangle = u.y <= u.x ? 0 : 1;
-        const SurfacePoint at = shape->surface_at({origin, sample.position - origin}, triangle);
+        const SurfacePoint at = shape->surface_at(Ray{origin, sample.position - origin}, triangle);
         CHECK((at.uv - u).length() < 1e-5f);
         CHECK(length(at.position - sample.position) < 1e-5f);
         CHECK(at.geometric_normal == sample.normal);

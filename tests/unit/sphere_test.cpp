@@ -25,7 +25,7 @@ std::unique_ptr<Shape> sphere(const Vec3f& center, double radius, const Transfor
 // Where a ray towards -direction meets the sphere.
 Vec2f uv_in_direction(const Shape& shape, const Vec3f& center, const Vec3f& direction)
 {
-    return shape.surface_at({center + direction * 10.f, -direction}, 0).uv;
+    return shape.surface_at(Ray{center + direction * 10.f, -direction}, 0).uv;
 }
 
 // The true solid angle's density for a sphere of radius 1 at this distance.
@@ -41,11 +41,11 @@ double true_pdf(double distance)
 TEST_CASE("a sphere is met from outside and from inside, normals outwards", "[unit][shape]")
 {
     const auto ball = sphere(Vec3f(1, 2, 3), 2.0);
-    const SurfacePoint outside = ball->surface_at({Vec3f(1, 2, 13), Vec3f(0, 0, -2)}, 0);
+    const SurfacePoint outside = ball->surface_at(Ray{Vec3f(1, 2, 13), Vec3f(0, 0, -2)}, 0);
     CHECK(outside.position == Vec3f(1, 2, 5));
     CHECK(outside.geometric_normal == Vec3f(0, 0, 1));
     CHECK(outside.shading.n == Vec3f(0, 0, 1));
-    const SurfacePoint inside = ball->surface_at({Vec3f(1, 2, 3), Vec3f(-1, 0, 0)}, 0);
+    const SurfacePoint inside = ball->surface_at(Ray{Vec3f(1, 2, 3), Vec3f(-1, 0, 0)}, 0);
     CHECK(inside.position == Vec3f(-1, 2, 3));
     CHECK(inside.geometric_normal == Vec3f(-1, 0, 0));
     CHECK(ball->area() == Approx(16.0 * pi_d));
@@ -70,7 +70,7 @@ TEST_CASE("uv of a sphere turn with its toWorld", "[unit][shape]")
     CHECK(uv_in_direction(*turned, Vec3f(0.f), Vec3f(1, 0, 0)).y == 0.f);
     const auto mirrored = sphere(Vec3f(0.f), 0.5, *Transform::scale(Vec3d(1, -1, 1)));
     CHECK(uv_in_direction(*mirrored, Vec3f(0.f), Vec3f(0, -1, 0)) == Vec2f(0.75f, 0.5f));
-    CHECK(mirrored->surface_at({Vec3f(0, 0, 3), Vec3f(0, 0, -1)}, 0).geometric_normal == Vec3f(0, 0, 1));
+    CHECK(mirrored->surface_at(Ray{Vec3f(0, 0, 3), Vec3f(0, 0, -1)}, 0).geometric_normal == Vec3f(0, 0, 1));
 }
 
 TEST_CASE("toWorld moves and scales a sphere, evenly or not at all", "[unit][shape]")
@@ -106,7 +106,7 @@ TEST_CASE("points of a sphere lie within their clearance of it", "[unit][shape]"
             };
             const Vec3f origin = center + random.direction() * static_cast<float>(3.0 * scale);
             const Vec3f aim = center + random.direction() * static_cast<float>(0.9 * scale);
-            const SurfacePoint at = ball->surface_at({origin, aim - origin}, 0);
+            const SurfacePoint at = ball->surface_at(Ray{origin, aim - origin}, 0);
             check(at.position, at.clearance);
             const ShapeSample area = ball->sample_area(0.0, random.next_2d());
             check(area.position, area.clearance);

@@ -159,7 +159,7 @@ TEST_CASE("normals of a mesh go through the inverse transpose", "[unit][shape]")
     Meshes meshes;
     const std::string slope = "v 0 0 0\nv 1 0 -1\nv 0 1 0\nvn 1 0 1\nf 1//1 2//1 3//1\n";
     const auto mesh = meshes.read(slope, *Transform::scale(Vec3d(2, 1, 1)));
-    const SurfacePoint at = mesh->surface_at({Vec3f(0.5f, 0.25f, 3), Vec3f(0, 0, -1)}, 0);
+    const SurfacePoint at = mesh->surface_at(Ray{Vec3f(0.5f, 0.25f, 3), Vec3f(0, 0, -1)}, 0);
     CHECK(length(at.shading.n - normalize(Vec3f(1, 0, 2))) < 1e-6f);
     CHECK(length(at.geometric_normal - at.shading.n) < 1e-6f);
 }
@@ -169,7 +169,7 @@ TEST_CASE("vertex normals that cancel give way to the geometric normal", "[unit]
     Meshes meshes;
     const auto mesh = meshes.read("v 0 0 0\nv 2 0 0\nv 0 2 0\nvn 1 0 0\nvn -1 0 0\nf 1//1 2//2 3//2\n");
     // Here the weights of the two opposite normals are equal.
-    const SurfacePoint at = mesh->surface_at({Vec3f(0.5f, 0.5f, 3), Vec3f(0, 0, -1)}, 0);
+    const SurfacePoint at = mesh->surface_at(Ray{Vec3f(0.5f, 0.5f, 3), Vec3f(0, 0, -1)}, 0);
     CHECK(at.shading.n == at.geometric_normal);
     CHECK(std::abs(at.geometric_normal.z) == 1.f);
 }
@@ -198,7 +198,7 @@ TEST_CASE("points of a mesh lie within their clearance of the triangle's plane",
             const ShapeSample sample = mesh->sample_area(random.next_double(), random.next_2d());
             check(sample.position, sample.clearance);
             const Vec3f origin = sample.position + random.direction() * static_cast<float>(scale);
-            const SurfacePoint at = mesh->surface_at({origin, sample.position - origin}, 0);
+            const SurfacePoint at = mesh->surface_at(Ray{origin, sample.position - origin}, 0);
             check(at.position, at.clearance);
         }
 }
