@@ -166,11 +166,15 @@ Box3f TriangleMesh::primitive_bounds(std::uint32_t primitive) const
 
 DirectionCone TriangleMesh::normals() const
 {
+    constexpr double closed_below = 1e-6; // those of a closed mesh cancel, and what is left is rounding
     Vec3d axis(0.0);
-    for (std::uint32_t i = 0; i < mesh_.triangles.size(); ++i)
+    double area = 0.0;
+    for (std::uint32_t i = 0; i < mesh_.triangles.size(); ++i) {
         axis += Vec3d(triangle_normal(i)) * triangle_area(i);
+        area += triangle_area(i);
+    }
     const double size = length(axis);
-    if (!(size > 0.0)) return {};
+    if (!(size > closed_below * area)) return {};
     double cosine = 1.0;
     for (std::uint32_t i = 0; i < mesh_.triangles.size(); ++i)
         if (triangle_area(i) > 0.0) cosine = std::min(cosine, dot(Vec3d(triangle_normal(i)), axis) / size);

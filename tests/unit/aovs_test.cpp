@@ -308,13 +308,13 @@ TEST_CASE("objects with one BSDF have one material", "[unit][aov]")
     };
     const Rendered shared("<bsdf type='diffuse' id='paint'/>" + placed(-5, "<ref id='paint'/>") +
                           placed(5, "<ref id='paint'/>"));
-    CHECK(material_names(shared.scene().job.scene) == Names{"paint"});
+    CHECK(material_names(*shared.scene().job.scene) == Names{"paint"});
     CHECK(shared.at(0, 0, "material.id") == 1.f);
     CHECK(shared.at(7, 0, "material.id") == 1.f);
     CHECK(shared.at(0, 0, "object.id") != shared.at(7, 0, "object.id"));
     const Rendered two(placed(-5, "") + placed(5, red));
-    CHECK(material_names(two.scene().job.scene).size() == 2);
-    CHECK(material_names(two.scene().job.scene).front() == "bsdf 'diffuse' (default)");
+    CHECK(material_names(*two.scene().job.scene).size() == 2);
+    CHECK(material_names(*two.scene().job.scene).front() == "bsdf 'diffuse' (default)");
     CHECK(two.at(0, 0, "material.id") + two.at(7, 0, "material.id") == 3.f);
 
     // An instance is one object of as many materials as its group has.
