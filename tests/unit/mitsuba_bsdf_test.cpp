@@ -209,6 +209,39 @@ TEST_CASE("BSDFs have the values that Mitsuba 3 has", "[unit][bsdf][mitsuba]")
     }
 }
 
+TEST_CASE("BSDFs reflect as much of a white sky as in Mitsuba 3", "[statistical][bsdf][mitsuba]")
+{
+    struct Plane {
+        ParamsBuilder params;
+        double radiance;
+        double error; // five standard errors of theirs; of plastic, also what its fit is off
+    };
+    const Plane planes[] = {
+        {bsdf("plastic"), .520031, 1.2e-3},
+        {bsdf("roughplastic").color("diffuseReflectance", Color(1.f)), .968409, 1.3e-3},
+        {bsdf("roughconductor").string("material", "none").number("alpha", 0.5), .943727, 1.5e-3},
+        {bsdf("principled").color("baseColor", Color(1.f)), 1.04319, 2.7e-3},
+        {bsdf("thindielectric"), 1.0, 1e-5},
+    };
+    for (const Plane& plane : planes) {
+        const auto built = plane.params.build_type(bsdf_types());
+        check_mean(
+            plane.params.text(), plane.radiance,
+            [&](std::uint64_t n, std::uint64_t seed) {
+                TestRandom random(seed);
+                MeanAndVariance mean;
+                for (std::uint64_t i = 0; i < n; ++i) {
+                    const float u_lobe = random.next_1d();
+                    const Vec2f u = random.next_2d();
+                    const auto sample = built->sample(SurfacePoint(), Vec3f(0.f, 0.f, 1.f), u_lobe, u);
+                    mean.add(sample ? static_cast<double>(sample->weight.g) : 0.0);
+                }
+                return mean;
+            },
+            200'000, sidak_level(significance, std::size(planes)), 1, plane.error);
+    }
+}
+
 TEST_CASE("a white plastic reflects all light", "[unit][bsdf]")
 {
     for (const double interior : {1.1, 1.49, 2.4}) {
