@@ -74,11 +74,28 @@ private:
             kept.push_back(made_parameter(camera, "integer", "height", "576"));
         }
         for (Element& inner : of_film) kept.push_back(std::move(inner));
+        if (filter) order_filter(*filter);
         kept.push_back(filter ? *std::move(filter) : made_object(camera, "rfilter", "gaussian"));
         camera.children = std::move(kept);
         if (sampler_) return;
         sampler_ = made_object(camera, "sampler", "independent");
         sampler_->children.push_back(made_parameter(camera, "integer", "sampleCount", "4"));
+    }
+
+    // A gaussian ends at 4 standard deviations.
+    void order_filter(Element& filter)
+    {
+        if (filter.value("type") != "gaussian") return;
+        for (const Element& child : filter.children) {
+            const Attribute* value = child.value("name") == "stddev" ? child.attribute("value") : nullptr;
+            if (!value) continue;
+            Diagnostics ignored; // whoever builds it reports it
+            const auto stddev = read_number(child, *value, ignored);
+            if (stddev)
+                filter.children.push_back(
+                    made_parameter(filter, "float", "radius", fmt::format("{}", 4.0 * *stddev)));
+            return;
+        }
     }
 
     void require(const Element& element, std::string_view ours, std::string_view theirs)

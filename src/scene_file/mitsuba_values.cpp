@@ -138,7 +138,7 @@ bool flatten_spectrum(Element& element, std::initializer_list<std::string_view> 
         }
     element.children.clear();
     std::erase_if(element.attributes, [](const Attribute& a) { return a.name == "type" || a.name == "id"; });
-    if (element.tag != tag) rename_tag(element, tag);
+    element.tag = tag; // also for messages: the value is read as that of this tag
     set_attribute(element, "value", value);
     return true;
 }
@@ -293,7 +293,7 @@ bool lookat_syntax(Element& element, Diagnostics& diagnostics)
     if (!(length > 0.0)) return true; // reported elsewhere
     z = z / length;
     const double sign = std::copysign(1.0, z.z), a = -1.0 / (sign + z.z); // Duff et al. 2017, as frame.h
-    set_attribute(element, "up", triple(1.0 + sign * z.x * z.x * a, sign * z.x * z.y * a, -sign * z.x));
+    set_attribute(element, "up", triple(1.0 + sign * z.x * z.x * a, sign * z.x * z.y * a + 0.0, -sign * z.x));
     return true;
 }
 
@@ -371,6 +371,13 @@ bool to_number(Element& parameter, Diagnostics& diagnostics)
     set_attribute(parameter, "value",
                   fmt::format("{}", 0.212671 * (*c)[0] + 0.715160 * (*c)[1] + 0.072169 * (*c)[2]));
     return true;
+}
+
+bool only_if_true(Element& parameter, Diagnostics& diagnostics)
+{
+    const Attribute* value = parameter.attribute("value");
+    if (!value || parameter.tag != "boolean") return true;
+    return read_boolean(parameter, *value, diagnostics).value_or(false);
 }
 
 bool depth_minus_one(Element& parameter, Diagnostics& diagnostics)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "scene_file/mitsuba_words.h"
 
+#include "scene_file/mitsuba06_words.h"
 #include "scene_file/mitsuba_values.h"
 
 #include <charconv>
@@ -159,16 +160,16 @@ constexpr ParamName params[] = {
 
     {"shape", "", "to_world", "toWorld"},
     {"shape", "obj", "filename", "filename"},
-    {"shape", "obj", "face_normals", "faceNormals"},
+    {"shape", "obj", "face_normals", "faceNormals", only_if_true},
     {"shape", "obj", "flip_tex_coords", "flipV"},
     {"shape", "obj", "flip_normals", "flipNormals"},
     {"shape", "ply", "filename", "filename"},
-    {"shape", "ply", "face_normals", "faceNormals"},
+    {"shape", "ply", "face_normals", "faceNormals", only_if_true},
     {"shape", "ply", "flip_tex_coords", "flipV"},
     {"shape", "ply", "flip_normals", "flipNormals"},
     {"shape", "serialized", "filename", "filename"},
     {"shape", "serialized", "shape_index", "shapeIndex"},
-    {"shape", "serialized", "face_normals", "faceNormals"},
+    {"shape", "serialized", "face_normals", "faceNormals", only_if_true},
     {"shape", "serialized", "flip_tex_coords", "flipV"},
     {"shape", "serialized", "flip_normals", "flipNormals"},
     {"shape", "sphere", "center", "center"},
@@ -276,10 +277,10 @@ constexpr Preset presets[] = {
     {"shape", "rectangle", "float", "height", "2"},
     {"shape", "cube", "float", "width", "2"},
     {"shape", "sphere", "boolean", "flipU", "true"},
-    {"shape", "obj", "boolean", "smooth", "true"},
+    {"shape", "obj", "boolean", "smooth", "true", "faceNormals"},
     {"shape", "obj", "boolean", "flipV", "true"},
-    {"shape", "ply", "boolean", "smooth", "true"},
-    {"shape", "serialized", "boolean", "smooth", "true"},
+    {"shape", "ply", "boolean", "smooth", "true", "faceNormals"},
+    {"shape", "serialized", "boolean", "smooth", "true", "faceNormals"},
 
     {"bsdf", "dielectric", "float", "intIOR", "1.5046"},
     {"bsdf", "dielectric", "float", "extIOR", "1.000277"},
@@ -290,6 +291,10 @@ constexpr Preset presets[] = {
     {"bsdf", "roughdielectric", "float", "alpha", "0.1", "alphaU"},
     {"bsdf", "roughconductor", "string", "material", "none", "eta"},
     {"bsdf", "roughconductor", "float", "alpha", "0.1", "alphaU"},
+    {"bsdf", "plastic", "float", "intIOR", "1.49"},
+    {"bsdf", "plastic", "float", "extIOR", "1.000277"},
+    {"bsdf", "roughplastic", "float", "intIOR", "1.49"},
+    {"bsdf", "roughplastic", "float", "extIOR", "1.000277"},
     {"bsdf", "roughplastic", "float", "alpha", "0.1"},
     {"bsdf", "normalmap", "boolean", "useShadowing", "true"},
     {"bsdf", "bumpmap", "boolean", "useShadowing", "true"},
@@ -380,6 +385,12 @@ bool is_mitsuba_scene(const Element& root)
     return root.tag == "scene" && root.attribute("version") && !root.attribute("dialect");
 }
 
+const Vocabulary* mitsuba_vocabulary_named(std::string_view name)
+{
+    static const Vocabulary mitsuba06 = mitsuba06_vocabulary(mitsuba3);
+    return name == mitsuba3.name ? &mitsuba3 : name == mitsuba06.name ? &mitsuba06 : nullptr;
+}
+
 DialectChoice mitsuba_choice(const Element& root, const DialectWishes& wishes, Diagnostics& diagnostics)
 {
     const Attribute& version = *root.attribute("version");
@@ -409,9 +420,10 @@ const Vocabulary* mitsuba_vocabulary(const Element& root, Diagnostics& diagnosti
         return nullptr;
     }
     if (major >= 2 && major <= 3) return &mitsuba3;
+    if (major < 2 && major >= 0) return mitsuba_vocabulary_named("mitsuba06");
     diagnostics.error(
         root.value_place(version),
-        fmt::format("scenes of Mitsuba {} are not supported; those of 2.x and 3.x are", version.value));
+        fmt::format("scenes of Mitsuba {} are not supported; those of 0.4 to 3.x are", version.value));
     return nullptr;
 }
 

@@ -13,6 +13,9 @@ bool is_mitsuba_scene(const Element& root);
 // The words of that version. Null: it is not supported, which is reported.
 const Vocabulary* mitsuba_vocabulary(const Element& root, Diagnostics& diagnostics);
 
+// "mitsuba3" or "mitsuba06"; null for other names.
+const Vocabulary* mitsuba_vocabulary_named(std::string_view name);
+
 // What the loader would else look for in the file. The command line cannot name another dialect.
 DialectChoice mitsuba_choice(const Element& root, const DialectWishes& wishes, Diagnostics& diagnostics);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "scene_file/vocabulary.h"
 
+#include "plumb/scene_file/scene_file.h"
 #include "scene_file/catalog.h"
 #include "scene_file/placement.h"
 #include "scene_file/property_values.h"
@@ -184,15 +185,29 @@ private:
                    row->convert(child, diagnostics_);
         }
         if (!words_.complete || attribute->broken || has_any_name(kind, type)) return true;
-        std::vector<std::string_view> known;
-        for (const Vocabulary* from = &words_; from; from = from->base)
-            for (const ParamName& param : from->params)
-                if (fits(param, kind, type)) known.push_back(param.theirs);
+        const std::vector<std::string_view> known = known_parameters(kind, type);
         diagnostics_.add(
             options_.lenient ? Severity::warning : Severity::error, child.value_place(*attribute),
             fmt::format("unknown {} '{}' for {} '{}'{}", child.tag == "texture" ? "texture" : "parameter",
                         name, kind, type, known.empty() ? "; it takes none" : way_out(name, known)));
         return false;
+    }
+
+    // The file's names of what the type has; rows for all types name more.
+    std::vector<std::string_view> known_parameters(const std::string& kind, const std::string& type) const
+    {
+        std::vector<std::string_view> ours, known;
+        for (const TypeInfo& info : known_types())
+            if (info.kind == kind && info.name == our_type(words_, kind, type))
+                ours = parameters_in(info.manual);
+        for (const Vocabulary* from = &words_; from; from = from->base)
+            for (const ParamName& row : from->params)
+                if (fits(row, kind, type) && (!row.type.empty() || kind_of_tag(kind).empty() ||
+                                              std::find(ours.begin(), ours.end(), row.ours) != ours.end()))
+                    known.push_back(row.theirs);
+        std::sort(known.begin(), known.end());
+        known.erase(std::unique(known.begin(), known.end()), known.end());
+        return known;
     }
 
     // Whether parameters of it may have any name.

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: MIT
+#include "scene_file/mitsuba06_words.h"
+
+#include "base/lower_case.h"
+#include "scene_file/mitsuba_values.h"
+#include "scene_file/mitsuba_words.h"
+#include "scene_file/property_values.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace plumb {
+
+namespace {
+
+bool is_upper(char c)
+{
+    return c >= 'A' && c <= 'Z';
+}
+
+bool is_lower(char c)
+{
+    return c >= 'a' && c <= 'z';
+}
+
+// --- Values ---------------------------------------------------------------------------------------------------
+
+double linear_of_srgb(double x)
+{
+    return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
+}
+
+// "#ff8000" as three numbers in [0, 1].
+std::optional<Vec3d> read_hex(std::string_view text)
+{
+    if (text.size() != 7 || text[0] != '#') return {};
+    Vec3d color;
+    for (int i = 0; i < 3; ++i) {
+        unsigned byte = 0;
+        const char* const begin = text.data() + 1 + 2 * i;
+        const auto [end, error] = std::from_chars(begin, begin + 2, byte, 16);
+        if (error != std::errc() || end != begin + 2) return {};
+        color[i] = byte / 255.0;
+    }
+    return color;
+}
+
+// Colours are linear <rgb>, whatever they are written as; spectra of one or three numbers are such colours here.
+bool color_syntax(Element& element, Diagnostics& diagnostics)
+{
+    const Attribute* value = element.attribute("value");
+    if (!value || value->broken || element.attribute("type")) return true;
+    const bool is_srgb = element.tag == "srgb";
+    std::optional<Vec3d> color = read_hex(value->value);
+    if (!color) {
+        if (element.tag == "spectrum" && value->value.find(':') != std::string::npos) return true;
+        const auto numbers = read_numbers(element, *value, {3, 1}, diagnostics);
+        if (!numbers) return false;
+        color =
+            numbers->size() == 1 ? Vec3d((*numbers)[0]) : Vec3d((*numbers)[0], (*numbers)[1], (*numbers)[2]);
+    }
+    if (is_srgb || value->value.starts_with('#'))
+        color = Vec3d(linear_of_srgb(color->x), linear_of_srgb(color->y), linear_of_srgb(color->z));
+    element.tag = "rgb";
+    set_attribute(element, "value", fmt::format("{}, {}, {}", color->x, color->y, color->z));
+    return true;
+}
+
+// <blackbody temperature="5000K" scale="2"/> as the spectrum of that name.
+void blackbody_syntax(Element& element)
+{
+    std::string kelvin = element.value("temperature");
+    if (kelvin.ends_with('K') || kelvin.ends_with('k')) kelvin.pop_back();
+    const std::string scale = element.value("scale");
+    element.children.push_back(made_parameter(element, "float", "temperature", kelvin));
+    if (!scale.empty()) element.children.push_back(made_parameter(element, "float", "scale", scale));
+    std::erase_if(element.attributes,
+                  [](const Attribute& a) { return a.name == "temperature" || a.name == "scale"; });
+    rename_tag(element, "spectrum");
+    set_attribute(element, "type", "blackbody");
+}
+
+bool syntax(Element& element, Diagnostics& diagnostics)
+{
+    if (const Attribute* name = element.attribute("name"); name && is_property_tag(element.tag))
+        if (const std::string ours = snake_case(name->value); ours != name->value)
+            rename_attribute_value(element, "name", ours);
+    if (element.tag == "lookAt") rename_tag(element, "lookat");
+    if (element.tag == "blackbody") blackbody_syntax(element);
+    if (element.tag == "srgb" || element.tag == "rgb" || element.tag == "spectrum") {
+        if (const Attribute* name = element.attribute("name"))
+            if (const std::string ours = snake_case(name->value); ours != name->value)
+                rename_attribute_value(element, "name", ours);
+        if (!color_syntax(element, diagnostics)) return false;
+    }
+    if (element.tag == "texture" || element.tag == "ref")
+        if (const Attribute* name = element.attribute("name"))
+            if (const std::string ours = snake_case(name->value); ours != name->value)
+                rename_attribute_value(element, "name", ours);
+    return mitsuba_syntax(element, diagnostics);
+}
+
+// Distributions that Mitsuba 3 has no more are near Beckmann's.
+bool known_distribution(Element& parameter, Diagnostics& diagnostics)
+{
+    const Attribute* value = parameter.attribute("value");
+    if (!value || (value->value != "phong" && value->value != "as")) return true;
+    diagnostics.warning(
+        parameter.value_place(*value),
+        fmt::format("the distribution '{}' is rendered as 'beckmann', which is near it", value->value));
+    set_attribute(parameter, "value", "beckmann");
+    return true;
+}
+
+// Filters of more than one texel need differentials of rays.
+bool known_filter(Element& parameter, Diagnostics&)
+{
+    const std::string value = lower_case(parameter.value("value"));
+    if (value == "ewa" || value == "trilinear") set_attribute(parameter, "value", "bilinear");
+    return true;
+}
+
+// --- Tables ---------------------------------------------------------------------------------------------------
+
+constexpr std::string_view near_diffuse = "this is rendered as 'diffuse'";
+
+constexpr TypeName types[] = {
+    {"integrator", "volpath_simple", "path_mis"},
+    {"integrator", "erpt", "path_mis", "this is rendered by 'path', which finds the same light up to noise"},
+    {"film", "ldrfilm", "hdrfilm"},
+    {"sampler", "sobol", "sobol"},
+    {"sampler", "halton", "sobol"},
+    {"sampler", "hammersley", "sobol"},
+    {"bsdf", "roughdiffuse", "diffuse", near_diffuse},
+    {"bsdf", "difftrans", "diffuse", near_diffuse},
+};
+
+constexpr ParamName params[] = {
+    {"bsdf", "diffuse", "diffuse_reflectance", "albedo", color_of_reflectance},
+    {"bsdf", "roughdiffuse", "reflectance", "albedo", color_of_reflectance},
+    {"bsdf", "roughdiffuse", "diffuse_reflectance", "albedo", color_of_reflectance},
+    {"bsdf", "conductor", "ext_eta", "extIOR", index_by_name},
+    {"bsdf", "roughconductor", "ext_eta", "extIOR", index_by_name},
+    {"bsdf", "", "distribution", "distribution", known_distribution},
+    {"texture", "bitmap", "filter_type", "filter", known_filter},
+};
+
+// Conductors are of copper.
+constexpr Preset presets[] = {
+    {"bsdf", "conductor", "string", "material", "Cu", "eta"},
+    {"bsdf", "roughconductor", "string", "material", "Cu", "eta"},
+};
+
+constexpr Refusal refusals[] = {
+    {"bsdf", "coating", "use 'plastic' or 'roughplastic'"},
+    {"bsdf", "roughcoating", "use 'roughplastic'"},
+    {"bsdf", "phong", "use 'roughplastic'"},
+    {"bsdf", "ward", "use 'roughconductor' or 'roughplastic'"},
+    {"bsdf", "mixturebsdf", "use 'blendbsdf'"},
+    {"emitter", "sun", "use 'directional'"},
+    {"emitter", "collimated", "use 'spot' with a small cutoffAngle"},
+    {"texture", "scale", "scale the picture itself"},
+    {"texture", "vertexcolors", "export the mesh as .ply and use 'mesh_attribute'"},
+};
+
+constexpr Ignored ignored[] = {
+    {"film", "", "attach_log"},
+    {"film", "", "gamma"},
+    {"film", "", "high_quality_edges"},
+    {"film", "", "exposure"},
+    {"film", "", "tonemap_method"},
+    {"film", "", "key"},
+    {"film", "", "burn"},
+    {"integrator", "", "strict_normals"},
+    {"sampler", "", "scramble"},
+    {"sampler", "", "dimension"},
+    {"bsdf", "roughdiffuse", "alpha"},
+    {"bsdf", "roughdiffuse", "use_fast_approx"},
+    {"texture", "bitmap", "max_anisotropy"},
+    {"texture", "bitmap", "cache"},
+    {"shape", "", "max_smooth_angle",
+     "maxSmoothAngle is not read: the mesh is smooth, or flat with faceNormals"},
+    {"camera", "", "kc"},
+};
+
+} // namespace
+
+std::string snake_case(std::string_view name)
+{
+    std::string text;
+    for (std::size_t i = 0; i < name.size(); ++i) {
+        if (i > 0 && is_upper(name[i]) && is_lower(name[i - 1])) text += '_';
+        text += lower_case(name[i]);
+    }
+    return text;
+}
+
+Vocabulary mitsuba06_vocabulary(const Vocabulary& base)
+{
+    return {.name = "mitsuba06",
+            .types = types,
+            .params = params,
+            .presets = presets,
+            .refusals = refusals,
+            .ignored = ignored,
+            .complete = true,
+            .syntax = syntax,
+            .base = &base};
+}
+
+} // namespace plumb
