@@ -20,7 +20,7 @@ float radiance(const TempDirectory& directory, const std::string& bsdf, const Ve
                      "<shape type='rectangle'><float name='width' value='" +
                          size + "'/><float name='height' value='" + size + "'/>" + bsdf +
                          "</shape></scene>"));
-    const Scene& scene = loaded.job.scene;
+    const Scene& scene = *loaded.job.scene;
     const auto at = scene.intersect(Ray{Vec3f(0.01f, 0.01f, 5.f), Vec3f(0.f, 0.f, -1.f), 0.f, infinity});
     REQUIRE(at);
     const Vec3f wi = at->shading.to_local(Vec3f(0.f, 0.f, 1.f)), wo = at->shading.to_local(sun);
