@@ -270,7 +270,9 @@ TEST_CASE("samples of a shape are where a ray meets it, inside its bounds", "[st
                 {sample.position + sample.normal * (1e-3f * size), -sample.normal});
             if (!hit || length(hit->position - sample.position) > 1e-5f * size) continue; // another part
             ++compared;
-            CHECK(length(hit->geometric_normal - sample.normal) < 1e-4f);
+            // A mirrored toWorld turns a mesh without normals; an instance does not.
+            const float side = test.alone.in_instance() && shape.triangle_count() > 2 ? -1.f : 1.f;
+            CHECK(length(hit->geometric_normal - sample.normal * side) < 1e-4f);
             CHECK(length(hit->position - sample.position) < 1e-5f * size);
             if ((hit->uv - sample.uv).length() < 0.5f) // not across the seam of an angle
                 CHECK((hit->uv - sample.uv).length() < 1e-2f);
