@@ -41,6 +41,7 @@ DOORS = {
     "pugixml": (r"pugi", ["src/scene_file/document*.cpp"]),
     "oneTBB": (r"(oneapi/)?tbb(/|\.h)", ["src/render/render*.cpp", "src/base/parallel*.cpp"]),
     "OpenSSL": (r"openssl/", ["src/base/sha256.cpp"]),
+    "zlib": (r"zlib\.h", ["src/shapes/serialized/inflated.cpp"]),
     "CLI11": (r"CLI/", ["src/cli/options*.cpp"]),
     "Imath": (r"Imath", ["include/plumb/math/math.h", "include/plumb/math/transform.h"]),
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 
+#include "cameras/field_of_view.h"
+#include "cameras/film_window.h"
 #include "model/plugin.h"
-
 #include "plumb/model/camera.h"
 #include "plumb/sampling/sampling.h"
 
@@ -11,12 +12,23 @@ namespace plumb {
 ///
 ///     width           integer     pixels across, from 1 to 65535   (default 1280)
 ///     height          integer     pixels down, from 1 to 65535   (default 720)
-///     fov             float       horizontal field of view in degrees, in (0, 180)   (default 30)
+///     fov             float       field of view in degrees, in (0, 180)   (default 30)
+///     fovAxis         string      that of fov: x, y, diagonal, or that of the smaller or larger of width and height, written
+///                                 smaller or larger   (default x)
+///     focalLengthMm   float       instead of fov: of a lens before a film of 36 mm x 24 mm, whose diagonal becomes that of
+///                                 the picture, in mm, greater than 0
+///     principalPointOffsetX  float  the axis of the camera is seen this part of the width left of the middle   (default 0)
+///     principalPointOffsetY  float  and this part of the height above it   (default 0)
 ///     toWorld         transform   camera space to world space   (default identity)
 ///     nearClip        float       nothing nearer along +z is seen, if given
 ///     farClip         float       nothing farther along +z is seen, if given
 ///     lensRadius      float       radius of the lens, at least 0; 0 is a pinhole   (default 0)
 ///     focalDistance   float       distance of sharp focus along +z, greater than 0   (default 1)
+///     cropOffsetX     integer     only a part of the picture is rendered: its first column   (default 0)
+///     cropOffsetY     integer     its first row   (default 0)
+///     cropWidth       integer     its width   (default: up to the right edge)
+///     cropHeight      integer     its height   (default: down to the lower edge)
+///     sampleBorder    boolean     filters reach beyond the edge of the picture; else they are cut there   (default true)
 ///     mirrored        boolean     the image is flopped, left to right; the dialect eth sets it   (default false)
 ///
 ///         <camera type="perspective">
@@ -29,18 +41,19 @@ namespace plumb {
 ///         </camera>
 class PerspectiveCamera final : public Camera {
 public:
-    explicit PerspectiveCamera(const Params& params)
-        : resolution_(static_cast<int>(params.integer("width", 1280, Range::closed(1, 65535))),
-                      static_cast<int>(params.integer("height", 720, Range::closed(1, 65535)))),
-          to_world_(params.transform("toWorld"))
+    explicit PerspectiveCamera(const Params& params) : film_(params), to_world_(params.transform("toWorld"))
     {
-        const double fov = params.number("fov", 30.f, Range::open(0.0, 180.0));
-        const SinCosD half = sin_cos(fov * (pi_d / 360.0));
-        half_width_ = half.sin / half.cos;
-        half_height_ = half_width_ * resolution_.y / resolution_.x;
+        const FieldOfView view = read_field_of_view(params, film_.full);
+        half_width_ = view.half_width;
+        half_height_ = view.half_height;
         if (params.boolean("mirrored", false)) half_width_ = -half_width_;
-        pixel_width_ = 2.0 * half_width_ / resolution_.x;
-        pixel_height_ = 2.0 * half_height_ / resolution_.y;
+        pixel_width_ = 2.0 * half_width_ / film_.full.x;
+        pixel_height_ = 2.0 * half_height_ / film_.full.y;
+        // A principal point is a shift of all pixels, like a crop.
+        const Vec2f principal(params.number("principalPointOffsetX", 0.f, Range::closed(-1e3, 1e3)),
+                              params.number("principalPointOffsetY", 0.f, Range::closed(-1e3, 1e3)));
+        shift_ = film_.offset + Vec2f(principal.x * static_cast<float>(film_.full.x),
+                                      principal.y * static_cast<float>(film_.full.y));
         position_ = to_world_.point(Vec3d(0.0, 0.0, 0.0));
         read_clipping(params);
         read_lens(params);
@@ -49,7 +62,8 @@ public:
     CameraRay sample_ray(const Vec2f& raster, const Vec2f& u_lens) const override
     {
         // The point of the plane z = 1 seen through this place of the picture; row 0 is up, column 0 is left.
-        const Vec3d towards(half_width_ - raster.x * pixel_width_, half_height_ - raster.y * pixel_height_,
+        const Vec2f place = raster + shift_;
+        const Vec3d towards(half_width_ - place.x * pixel_width_, half_height_ - place.y * pixel_height_,
                             1.0);
         Vec3d origin(0.0, 0.0, 0.0);
         Vec3d direction = towards;
@@ -69,8 +83,9 @@ public:
         return {ray, Color(1.f)};
     }
 
-    Vec2i resolution() const override { return resolution_; }
+    Vec2i resolution() const override { return film_.resolution; }
     const Transform& to_world() const override { return to_world_; }
+    bool sample_border() const override { return film_.sample_border; }
 
 private:
     void read_clipping(const Params& params)
@@ -89,8 +104,9 @@ private:
             params.fail("focalDistance", "must be greater than 0 where the lens has a radius");
     }
 
-    Vec2i resolution_;
+    FilmWindow film_;
     Transform to_world_;
+    Vec2f shift_{0.f};        // of a raster place in the window to the full picture about the axis, in pixels
     double half_width_ = 1.0; // of the picture in the plane z = 1; negative where the view is mirrored
     double half_height_ = 1.0;
     double pixel_width_ = 0.0; // of one pixel in that plane

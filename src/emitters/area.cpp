@@ -14,7 +14,8 @@ namespace plumb {
 /// make a rectangle, from nearer than their diagonal is long; all else uniformly over its area. Stands inside the mesh
 /// or shape that emits.
 ///
-///     radiance   color or texture   in W / (m^2 sr), at least 0   (default 1)
+///     radiance   color or texture   in W / (m^2 sr), at least 0; negative values of a texture count as 0
+///                                   (default 1)
 ///     scale      float              multiplies radiance           (default 1)
 ///
 ///         <shape type="sphere">
@@ -25,7 +26,8 @@ namespace plumb {
 class AreaEmitter final : public Emitter {
 public:
     explicit AreaEmitter(const Params& params)
-        : radiance_(params.texture("radiance", Color(1.f))),
+        : radiance_(read_radiance(params)),
+          has_negative_(radiance_->min_value() < 0.f),
           scale_(params.number("scale", 1.f, Range::at_least(0.0))),
           shape_(params.parent_shape())
     {
@@ -51,7 +53,7 @@ public:
         const Vec3d direction(wi);
         const double cosine = -dot(direction, Vec3d(at->geometric_normal));
         if (!(cosine > 0.0)) return {};
-        const Color radiance = radiance_->color(at->uv) * scale_;
+        const Color radiance = radiance_at(at->uv);
         if (measure != Measure::area && has_solid_angle_)
             if (const std::optional<float> pdf = shape_->solid_angle_pdf(from)) return {radiance, *pdf};
         const double distance2 = length_squared(Vec3d(at->position) - Vec3d(from));
@@ -59,7 +61,13 @@ public:
     }
 
     // Radiance is the same in all directions: pi times its mean leaves each unit of area.
-    float power() const override { return pi * shape_->area() * luminance(radiance_->mean() * scale_); }
+    float power() const override
+    {
+        float mean = luminance(radiance_->mean() * scale_);
+        // What is negative has not been left out of the mean.
+        if (has_negative_) mean = std::max(mean, 1e-3f * std::max(radiance_->max_value(), 0.f) * scale_);
+        return pi * shape_->area() * mean;
+    }
 
     std::optional<LightBounds> bounds() const override
     {
@@ -69,6 +77,25 @@ public:
     bool has_solid_angle() const override { return has_solid_angle_; }
 
 private:
+    static std::shared_ptr<const Texture> read_radiance(const Params& params)
+    {
+        const Color fallback(1.f);
+        const auto texture = params.texture("radiance", fallback, Range::any());
+        if (!(texture->min_value() < 0.f)) return texture;
+        // A colour that someone has written is a mistake; images often have a few such pixels.
+        if (dynamic_cast<const UniformTexture*>(texture.get())) return params.texture("radiance", fallback);
+        params.warn("radiance", "the texture has negative values, which count as 0");
+        return texture;
+    }
+
+    Color radiance_at(const Vec2f& uv) const
+    {
+        const Color radiance = radiance_->color(uv) * scale_;
+        if (!has_negative_) [[likely]]
+            return radiance;
+        return {std::max(radiance.r, 0.f), std::max(radiance.g, 0.f), std::max(radiance.b, 0.f)};
+    }
+
     // A point on the shape as the receiver sees it; nothing from behind. measure: of the point's density.
     std::optional<EmitterSample> seen(const LightReceiver& receiver, const ShapeSample& point,
                                       Measure measure) const
@@ -85,7 +112,7 @@ private:
             light.position = point.position;
             light.normal = point.normal;
             light.clearance = point.clearance;
-            light.radiance = radiance_->color(point.uv) * scale_;
+            light.radiance = radiance_at(point.uv);
             // Per unit solid angle = per unit area * distance^2 / cosine.
             light.pdf = measure == Measure::area
                             ? static_cast<float>(point.pdf * (distance2 * distance / facing))
@@ -95,6 +122,7 @@ private:
     }
 
     std::shared_ptr<const Texture> radiance_;
+    bool has_negative_;
     float scale_;
     const Shape* shape_;
     bool has_solid_angle_ = false;

@@ -24,8 +24,15 @@ namespace plumb {
 ///
 /// Directions are chosen in proportion to the luminance that they show.
 ///
-///     filename     string    the image, in any format that OpenImageIO reads   (default: none, one colour)
-///     radiance     color     multiplies the image; without one, the radiance, in W / (m^2 sr)   (default 1)
+///     filename       string      the image, in any format that OpenImageIO reads   (default: none, one colour)
+///     radiance       color       multiplies the image; without one, the radiance, in W / (m^2 sr)   (default 1)
+///     scale          float       multiplies radiance, at least 0   (default 1)
+///     toWorld        transform   turns or mirrors the image about the scene: it maps the directions above to those of the
+///                                world   (default: the identity)
+///     columnOffset   float       in turns: column (phi / (2 pi) + columnOffset) width. 0.25 puts +z into the middle and the
+///                                seam at -z, as Mitsuba does   (default 0)
+///     rowsAtPoles    boolean     row theta / pi (height - 1): the first and the last row are the poles, as Mitsuba has
+///                                it   (default false)
 ///     imageScale   float     multiplies the image alone; the dialect zaragoza and --envmap-scale set it   (default 1)
 ///     flipped      boolean   see above; the dialect zaragoza sets it   (default false)
 ///
@@ -38,9 +45,20 @@ namespace plumb {
 class EnvironmentEmitter final : public Emitter {
 public:
     explicit EnvironmentEmitter(const Params& p)
-        : flipped_(p.boolean("flipped", false)), constant_(p.color("radiance", Color(1.f)))
+        : flipped_(p.boolean("flipped", false)),
+          rows_at_poles_(p.boolean("rowsAtPoles", false)),
+          constant_(p.color("radiance", Color(1.f)) * p.number("scale", 1.f, Range::at_least(0.0)))
     {
         const float image_scale = p.number("imageScale", 1.f);
+        if (flipped_ && rows_at_poles_) p.fail("rowsAtPoles", "and flipped cannot both be true");
+        const double offset = p.number("columnOffset", 0.f);
+        column_offset_ = offset - std::floor(offset);
+        to_world_ = p.transform("toWorld");
+        is_turned_ = !to_world_.is_identity();
+        to_image_ = to_world_.inverse();
+        if (!to_world_.uniform_scale())
+            p.fail("toWorld",
+                   "stretches the directions of the environment unevenly; it may turn and mirror them");
         p.ignore(
             "rotate",
             "'rotate' of an environment is ignored, as in the course's renderer: the image is not rotated");
@@ -94,17 +112,22 @@ private:
     // Directions in units of cells: x from 0 to width with phi, y from 0 to height with theta.
     Vec2f cell_coordinates(const Vec3f& wi) const
     {
-        const float phi = atan2(wi.z, wi.x);
-        const float theta =
-            atan2(std::sqrt(wi.x * wi.x + wi.z * wi.z), wi.y); // acos(wi.y) is inexact at the poles
-        const float turns = phi < 0.f ? 1.f + phi * inv_two_pi : phi * inv_two_pi;
+        const Vec3f d = is_turned_ ? to_image_.vector(wi) : wi;
+        const float phi = atan2(d.z, d.x);
+        const float theta = atan2(std::sqrt(d.x * d.x + d.z * d.z), d.y); // acos(d.y) is inexact at the poles
+        float turns = phi < 0.f ? 1.f + phi * inv_two_pi : phi * inv_two_pi;
+        if (column_offset_ > 0.0) {
+            turns += static_cast<float>(column_offset_);
+            if (turns >= 1.f) turns -= 1.f;
+        }
         return {turns * static_cast<float>(bitmap_->width()),
-                theta * inv_pi * static_cast<float>(bitmap_->height())};
+                theta * inv_pi * static_cast<float>(cell_rows())};
     }
 
     // Where the bitmap has the value for a direction.
     Vec2f texel_coordinates(const Vec2f& cell) const
     {
+        if (rows_at_poles_) return {cell.x - 0.5f, cell.y};
         if (!flipped_) return cell - Vec2f(0.5f);
         return Vec2f(static_cast<float>(bitmap_->width()), static_cast<float>(bitmap_->height())) - cell;
     }
@@ -114,7 +137,7 @@ private:
         if (!row_choice_.can_sample()) return 0.f;
         const auto last = [](int size) { return static_cast<std::size_t>(size - 1); };
         const std::size_t i = std::min(static_cast<std::size_t>(cell.x), last(bitmap_->width()));
-        const std::size_t j = std::min(static_cast<std::size_t>(cell.y), last(bitmap_->height()));
+        const std::size_t j = std::min(static_cast<std::size_t>(cell.y), last(cell_rows()));
         const float row = row_choice_.probability(j);
         return row > 0.f ? row * column_choice_[j].probability(i) / static_cast<float>(solid_angle(j)) : 0.f;
     }
@@ -130,14 +153,17 @@ private:
         const DiscreteDistribution::Choice row = row_choice_.sample(u.y + first_digits * 0x1p-51);
         const DiscreteDistribution::Choice column =
             column_choice_[row.index].sample(u.x + (digits - first_digits) * 0x1p-24);
-        const double phi = two_pi_ * (column.index + column.u) / bitmap_->width();
+        const double phi = two_pi_ * (column.index + column.u) / bitmap_->width() - two_pi_ * column_offset_;
         const double cos_theta =
             cos_theta_[row.index] - row.u * (cos_theta_[row.index] - cos_theta_[row.index + 1]);
         const double sin_theta = std::sqrt(std::max(0.0, (1.0 - cos_theta) * (1.0 + cos_theta)));
         const SinCosD angle = sin_cos(phi);
-        return {static_cast<float>(sin_theta * angle.cos), static_cast<float>(cos_theta),
-                static_cast<float>(sin_theta * angle.sin)};
+        const Vec3d d(sin_theta * angle.cos, cos_theta, sin_theta * angle.sin);
+        return Vec3f(is_turned_ ? normalize(to_world_.vector(d)) : d);
     }
+
+    // Between the rows of the image if these are at the poles, else around them.
+    int cell_rows() const { return rows_at_poles_ ? std::max(bitmap_->height() - 1, 1) : bitmap_->height(); }
 
     double solid_angle(std::size_t row) const
     {
@@ -170,7 +196,7 @@ private:
     // As much of a row is at theta as its ring is long: sin(theta).
     Taps row_taps(int row) const
     {
-        const double height = bitmap_->height();
+        const double height = cell_rows();
         const auto theta = [&](double y) { return pi_d * y / height; };
         const auto mass = [&](double y) { return -sin_cos(theta(y)).cos; };
         const auto moment = [&](double y) {
@@ -180,6 +206,10 @@ private:
             const double mean = (moment(end) - moment(begin)) / (mass(end) - mass(begin)); // of theta
             return std::clamp(mean * height / pi_d, begin, end) - row;
         };
+        if (rows_at_poles_) { // linear from one row to the next
+            const double mean = center(row, row + 1.0);
+            return {{row, std::min(row + 1, bitmap_->height() - 1), 0}, {1.0 - mean, mean, 0.0}};
+        }
         const double share = (mass(row + 0.5) - mass(row)) / (mass(row + 1.0) - mass(row));
         return taps(row, bitmap_->height(), flipped_, center(row, row + 0.5), center(row + 0.5, row + 1.0),
                     share);
@@ -188,7 +218,7 @@ private:
     void tabulate()
     {
         const int width = bitmap_->width();
-        const int height = bitmap_->height();
+        const int height = cell_rows();
         for (int j = 0; j <= height; ++j) cos_theta_.push_back(sin_cos(pi_d * j / height).cos);
 
         // A row of the bitmap averaged over the height of cells, then over their widths.
@@ -218,6 +248,11 @@ private:
     }
 
     bool flipped_;
+    bool rows_at_poles_;
+    double column_offset_ = 0.0; // in turns, from 0 to 1
+    Transform to_world_;         // of directions
+    Transform to_image_;
+    bool is_turned_ = false;
     Color constant_;
     std::unique_ptr<Bitmap> bitmap_; // null: constant_ everywhere
     std::vector<double> cos_theta_;  // at the borders of the rows of cells

@@ -17,6 +17,7 @@ public:
     explicit ConfiguredPath(const Params& params);
     void prepare(const Scene& scene) const; // throws Error if direct-measure does not suit the scene's lights
     Color radiance(Tracer& tracer, Sampler& sampler, const Ray& ray) const;
+    std::string bias() const { return bias_of_depth(max_depth()); } // as of Integrator
 
     // The technique that path_loop.h asks for.
     int max_depth() const { return limits_.max_depth; }

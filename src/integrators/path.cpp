@@ -28,6 +28,7 @@ namespace plumb {
 ///
 ///     maxDepth            integer   surface bounces: 0 shows emitters only, 1 direct light, -1 everything   (default -1)
 ///     rrDepth             integer   bounces before roulette starts   (default 3; with termination-param 0)
+///     hideEmitters        boolean   the camera sees through surfaces that emit, and no environment; mirrors show them   (default false)
 ///
 /// A path of throughput t (undone what refraction does to radiance) survives roulette with probability
 /// min(max(t), 0.95).
@@ -71,8 +72,7 @@ public:
 
     std::string bias() const override
     {
-        return std::visit([](const auto& estimator) { return bias_of_depth(estimator.max_depth()); },
-                          estimator_);
+        return std::visit([](const auto& estimator) { return estimator.bias(); }, estimator_);
     }
 
 private:

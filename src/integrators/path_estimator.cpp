@@ -17,6 +17,7 @@ PathLimits::PathLimits(const Params& params)
     max_depth = static_cast<int>(params.integer("maxDepth", max_depth, Range::closed(-1, largest_depth)));
     roulette_depth =
         static_cast<int>(params.integer("rrDepth", roulette_depth, Range::closed(0, largest_depth)));
+    hide_emitters = params.boolean("hideEmitters", false);
 }
 
 PathEstimator PathEstimator::direct_light(LightStrategy finder)
@@ -29,6 +30,13 @@ PathEstimator PathEstimator::direct_light(LightStrategy finder)
 Color PathEstimator::radiance(Tracer& tracer, Sampler& sampler, const Ray& ray) const
 {
     return trace_path(*this, tracer, sampler, ray);
+}
+
+std::string PathEstimator::bias() const
+{
+    const std::string of_depth = bias_of_depth(limits_.max_depth);
+    if (!limits_.hide_emitters) return of_depth;
+    return (of_depth.empty() ? "" : of_depth + "; ") + "the camera does not see emitters";
 }
 
 Color PathEstimator::direct(Tracer& tracer, Sampler& sampler, const Vertex& vertex) const

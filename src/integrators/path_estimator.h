@@ -11,11 +11,12 @@ namespace plumb {
 
 // How long paths get.
 struct PathLimits {
-    int max_depth = -1;     // surface bounces; -1: any number
-    int roulette_depth = 3; // bounces before roulette starts
+    int max_depth = -1;         // surface bounces; -1: any number
+    int roulette_depth = 3;     // bounces before roulette starts
+    bool hide_emitters = false; // from the camera
 
     PathLimits() = default;
-    explicit PathLimits(const Params& params); // the parameters maxDepth and rrDepth
+    explicit PathLimits(const Params& params); // the parameters maxDepth, rrDepth and hideEmitters
 };
 
 class PathEstimator {
@@ -32,9 +33,11 @@ public:
     static PathEstimator direct_light(LightStrategy finder);
 
     Color radiance(Tracer& tracer, Sampler& sampler, const Ray& ray) const;
+    std::string bias() const; // as of Integrator
 
     // The technique that path_loop.h asks for.
     int max_depth() const { return limits_.max_depth; }
+    bool hides_emitters() const { return limits_.hide_emitters; }
     bool counts_emission(const PathState& path) const
     {
         return strategy_ != LightStrategy::emitter_samples || path.delta;
@@ -68,7 +71,7 @@ public:
         return estimator_.radiance(tracer, sampler, ray);
     }
 
-    std::string bias() const override { return bias_of_depth(estimator_.max_depth()); }
+    std::string bias() const override { return estimator_.bias(); }
 
 private:
     PathEstimator estimator_;

@@ -9,6 +9,7 @@
 //     Color direct(Tracer&, Sampler&, const Vertex&) const      light that reaches the vertex by other means
 //     std::optional<BsdfSample> scatter(Sampler&, const Vertex&) const   where the path goes on
 //     float survival(const PathState&, int bounces) const       the chance that it does; 1: no roulette
+//     bool hides_emitters() const                               optional: does the camera see through emitters?
 
 #include "integrators/vertex.h"
 #include "plumb/model/sampler.h"
@@ -27,7 +28,8 @@ struct PathState {
     float eta_scale = 1.f;
     LightReceiver receiver; // the camera or the last vertex
     float pdf = 0.f;        // of the last direction, unless delta
-    bool delta = true; // nothing but following the path finds what it sees: camera rays and delta bounces
+    bool delta = true;   // nothing but following the path finds what it sees: camera rays and delta bounces
+    bool is_view = true; // the camera still looks along it, perhaps through panes that do not bend it
 
     void extend(const Vertex& vertex, const BsdfSample& next)
     {
@@ -36,8 +38,19 @@ struct PathState {
         receiver = vertex.receiver();
         pdf = next.pdf;
         delta = next.is_delta();
+        is_view = is_view && next.is_delta() && next.is_transmission() && vertex.goes_straight(next);
     }
 };
+
+// Whether emitters and environments are not there for the path's last ray.
+template <class Technique>
+bool sees_no_emitters(const Technique& technique, const PathState& path)
+{
+    if constexpr (requires { technique.hides_emitters(); })
+        return path.is_view && technique.hides_emitters();
+    else
+        return false;
+}
 
 // Integrator::bias() of a loop that ends paths at max_depth; negative: none.
 std::string bias_of_depth(int max_depth);
@@ -51,7 +64,8 @@ template <class Technique>
 Color emitted(const Technique& technique, Tracer& tracer, const PathState& path, const Ray& ray,
               const std::optional<SurfacePoint>& hit)
 {
-    if ((hit && !hit->emitter) || !technique.counts_emission(path)) return Color(0.f);
+    if ((hit && !hit->emitter) || !technique.counts_emission(path) || sees_no_emitters(technique, path))
+        return Color(0.f);
     const EmitterValue light = tracer.scene().emission(path.receiver, ray.direction, hit ? &*hit : nullptr);
     if (light.radiance.is_black()) return Color(0.f);
     const float weight = path.delta ? 1.f : technique.emission_weight(path, light.pdf);
@@ -92,7 +106,9 @@ Color trace_path(const Technique& technique, Tracer& tracer, Sampler& sampler, R
     Color result(0.f);
     PathState path(ray.origin);
     for (int bounces = 0;; ++bounces) {
-        const auto hit = tracer.intersect(ray, bounces == 0 ? RayKind::camera : RayKind::bounce);
+        const RayKind kind = bounces == 0 ? RayKind::camera : RayKind::bounce;
+        const auto hit = sees_no_emitters(technique, path) ? tracer.intersect_behind_emitters(ray, kind)
+                                                           : tracer.intersect(ray, kind);
         result += emitted(technique, tracer, path, ray, hit);
         if (!hit) return end("the path has left the scene"), result;
         if (hit->emitter && tracer.scene().emitters_absorb())

@@ -12,6 +12,8 @@ namespace plumb {
 ///
 ///     maxDepth   integer   surface bounces: 0 shows emitters only, 1 direct light, -1 everything   (default -1)
 ///     rrDepth    integer   bounces before Russian roulette starts   (default 3)
+///     hideEmitters   boolean   the camera sees through surfaces that emit, and no environment; mirrors show them
+///                              (default false)
 ///
 ///         <integrator type="path_nee"/>
 class PathNee final : public EstimatorIntegrator {

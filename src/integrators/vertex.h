@@ -43,6 +43,9 @@ public:
         return {at_.position, wi_.z < 0.f ? -at_.shading.n : at_.shading.n};
     }
 
+    // Whether a sample goes on where the path came from, to rounding.
+    bool goes_straight(const BsdfSample& sampled) const { return length_squared(sampled.wo + wi_) < 1e-10f; }
+
     Vec3f to_world(const BsdfSample& sampled) const { return at_.shading.to_world(sampled.wo); }
 
 private:

@@ -6,6 +6,7 @@
 #include "base/parallel.h"
 #include "plumb/base/error.h"
 #include "plumb/render/aovs.h"
+#include "render/film_edge.h"
 #include "render/tiles.h"
 
 #include <atomic>
@@ -33,13 +34,13 @@ struct SampleTaken {
 };
 
 // One sample: a pure function of job, seed, pixel and index.
-SampleTaken take_sample(const RenderJob& job, Tracer& tracer, Sampler& sampler, std::uint64_t seed,
-                        Vec2i pixel, std::uint64_t index)
+SampleTaken take_sample(const RenderJob& job, const FilmEdge& edge, Tracer& tracer, Sampler& sampler,
+                        std::uint64_t seed, Vec2i pixel, std::uint64_t index)
 {
     sampler.start(seed, pixel, index);
     const Vec2f u_filter = sampler.next_2d();
     const Vec2f u_lens = sampler.next_2d();
-    const FilterSample place = job.filter->sample(u_filter);
+    const FilterSample place = edge.sample(pixel, u_filter);
     const Vec2f raster(static_cast<float>(pixel.x) + 0.5f + place.offset.x,
                        static_cast<float>(pixel.y) + 0.5f + place.offset.y);
     const CameraRay camera_ray = job.camera->sample_ray(raster, u_lens);
@@ -201,6 +202,7 @@ bool Rendering::take(const SampleSet& wanted, const ProgressReport& progress, co
     oneapi::tbb::enumerable_thread_specific<Worker> workers(
         [&] { return Worker(job_, total, !state_.film.layers().empty()); });
     const AovMeter meter(options_.aovs, job_.scene, *job_.camera);
+    const FilmEdge edge(*job_.filter, *job_.camera);
     std::atomic<bool> paused = false;
 
     // How much of the block was done: its first rows.
@@ -220,7 +222,7 @@ bool Rendering::take(const SampleSet& wanted, const ProgressReport& progress, co
                 for (std::uint64_t index = block.first; index < block.last; ++index) {
                     if (!meter.empty()) worker.first = {};
                     const SampleTaken sample =
-                        take_sample(job_, worker.tracer, *worker.sampler, options_.seed, {x, y}, index);
+                        take_sample(job_, edge, worker.tracer, *worker.sampler, options_.seed, {x, y}, index);
                     const Verdict verdict =
                         meter.empty() ? state_.film.add({x, y}, sample.radiance, sample.weight)
                                       : state_.film.add({x, y}, sample.radiance, sample.weight,
@@ -269,7 +271,8 @@ ReplayedSample replay(const RenderJob& job, std::uint64_t seed, Vec2i pixel, std
     ReplayedSample replayed;
     Tracer tracer(job.scene, &replayed.log);
     const std::unique_ptr<Sampler> sampler = job.sampler->clone(total);
-    const SampleTaken sample = take_sample(job, tracer, *sampler, seed, pixel, sample_index);
+    const FilmEdge edge(*job.filter, *job.camera);
+    const SampleTaken sample = take_sample(job, edge, tracer, *sampler, seed, pixel, sample_index);
     Film judge({pixel.x, pixel.y, 1, 1}, size.x, size.y);
     replayed.value = sample.radiance;
     replayed.raster = sample.raster;

@@ -55,6 +55,35 @@ std::optional<SurfacePoint> Tracer::intersect_watched(const Ray& ray, RayKind ki
         return std::nullopt;
     }
     std::optional<SurfacePoint> hit = scene_.intersect(ray);
+    note(ray, kind, hit);
+    return hit;
+}
+
+std::optional<SurfacePoint> Tracer::intersect_behind_emitters(const Ray& ray, RayKind kind)
+{
+    if (!is_traceable(ray)) return intersect(ray, kind); // which counts it as failed
+    Ray rest = ray;
+    std::optional<SurfacePoint> hit;
+    for (;;) {
+        ++counts_.of(kind);
+        hit = scene_.intersect(rest);
+        if (!hit || !hit->emitter) break;
+        rest = hit->spawn_ray(ray.direction);
+        // A ray that does not come further would not end.
+        const double done = dot(Vec3d(rest.origin) - Vec3d(ray.origin), Vec3d(ray.direction)) /
+                            length_squared(Vec3d(ray.direction));
+        rest.t_max = static_cast<float>(static_cast<double>(ray.t_max) - done);
+        if (!(rest.t_max > 0.f) || !is_traceable(rest)) {
+            hit.reset();
+            break;
+        }
+    }
+    if (watched()) note(ray, kind, hit);
+    return hit;
+}
+
+void Tracer::note(const Ray& ray, RayKind kind, const std::optional<SurfacePoint>& hit)
+{
     if (hit && first_) first_->meet(ray, kind, *hit);
     if (logging()) {
         log(PathEvent::Kind::ray,
@@ -72,7 +101,6 @@ std::optional<SurfacePoint> Tracer::intersect_watched(const Ray& ray, RayKind ki
             log(PathEvent::Kind::escape, "leaves the scene");
         }
     }
-    return hit;
 }
 
 void Tracer::log(PathEvent::Kind kind, std::string text)

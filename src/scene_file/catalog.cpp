@@ -22,10 +22,14 @@ constexpr std::string_view name_characters =
 // file instantiates build<> for it.
 
 constexpr Entry<Shape> shapes[] = {
-    {"obj", build<class TriangleMesh>, "TriangleMesh"},
+    {"obj", build<class ObjMesh>, "ObjMesh"},
+    {"ply", build<class PlyMesh>, "PlyMesh"},
+    {"serialized", build<class SerializedMesh>, "SerializedMesh"},
     {"sphere", build<class Sphere>, "Sphere"},
     {"rectangle", build<class Rectangle>, "Rectangle"},
     {"disk", build<class Disk>, "Disk"},
+    {"cube", build<class Cube>, "Cube"},
+    {"cylinder", build<class Cylinder>, "Cylinder"},
 };
 
 constexpr Entry<Bsdf> bsdfs[] = {
@@ -56,10 +60,13 @@ constexpr Entry<Emitter> emitters[] = {
     {"point", build<class PointEmitter>, "PointEmitter"},
     {"directional", build<class DirectionalEmitter>, "DirectionalEmitter"},
     {"environment", build<class EnvironmentEmitter>, "EnvironmentEmitter"},
+    {"spot", build<class SpotEmitter>, "SpotEmitter"},
+    {"projector", build<class ProjectorEmitter>, "ProjectorEmitter"},
 };
 
 constexpr Entry<Camera> cameras[] = {
     {"perspective", build<class PerspectiveCamera>, "PerspectiveCamera"},
+    {"orthographic", build<class OrthographicCamera>, "OrthographicCamera"},
 };
 
 constexpr Entry<Sampler> samplers[] = {
@@ -73,6 +80,8 @@ constexpr Entry<Filter> filters[] = {
     {"mitchell", build<class MitchellFilter>, "MitchellFilter"},
     {"tent", build<class TentFilter>, "TentFilter"},
     {"box", build<class BoxFilter>, "BoxFilter"},
+    {"catmullrom", build<class CatmullRomFilter>, "CatmullRomFilter"},
+    {"lanczos", build<class LanczosFilter>, "LanczosFilter"},
 };
 
 constexpr Entry<Integrator> integrators[] = {

@@ -48,7 +48,7 @@ constexpr Vocabulary zaragoza = {.name = "zaragoza", .base = &nori};
 constexpr Vocabulary mcgill = {.name = "mcgill", .presets = mcgill_presets, .base = &nori};
 
 constexpr std::string_view lens_cameras[] = {"perspective", "thinlens", "perspective_dof",
-                                             "perspective_depth"};
+                                             "perspective_depth", "orthographic"};
 
 } // namespace
 

@@ -22,6 +22,7 @@ namespace plumb {
 ///     radius    float       greater than 0                            (default 1)
 ///     normal    vector      any length but 0                          (default 0 0 1)
 ///     toWorld   transform   from these coordinates to the world       (default: the identity)
+///     flipNormals   boolean   turn the front side to the back; uv stay  (default false)
 ///
 ///         <shape type="disk">
 ///             <point name="center" value="0 2 0"/>
@@ -36,6 +37,7 @@ public:
         const double radius = params.number("radius", 1.f, Range::positive());
         const Vec3f given_normal = params.vector("normal", Vec3f(0.f, 0.f, 1.f));
         const Transform to_world = params.transform("toWorld");
+        const bool flip_normals = params.boolean("flipNormals", false);
         if (!(max_component(abs(given_normal)) > 0.f)) {
             params.fail("normal", "must not be 0: it says where the front side is");
             return;
@@ -65,7 +67,7 @@ public:
         to_x_ = cross(axis_y_, plane_) / size;
         to_y_ = cross(plane_, axis_x_) / size;
         normal_ = Vec3f(plane_);
-        if (dot(normal_, to_world.normal(unit_normal)) < 0.f) normal_ = -normal_;
+        if ((dot(normal_, to_world.normal(unit_normal)) < 0.f) != flip_normals) normal_ = -normal_;
         shading_ = Frame(normal_);
         // The short axis of an ellipse is its area by the long one, which is no longer than this.
         const double longest = std::sqrt(length_squared(axis_x_) + length_squared(axis_y_));

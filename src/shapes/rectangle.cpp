@@ -21,6 +21,7 @@ namespace plumb {
 ///     height    float       greater than 0                            (default 1)
 ///     normal    vector      any length but 0                          (default 0 0 1)
 ///     toWorld   transform   from these coordinates to the world       (default: the identity)
+///     flipNormals   boolean   turn the front side to the back         (default false)
 ///
 ///         <shape type="rectangle">
 ///             <point name="center" value="0 2 0"/>
@@ -36,6 +37,7 @@ public:
         const double height = params.number("height", 1.f, Range::positive());
         const Vec3f given_normal = params.vector("normal", Vec3f(0.f, 0.f, 1.f));
         const Transform to_world = params.transform("toWorld");
+        const bool flip_normals = params.boolean("flipNormals", false);
         if (!(max_component(abs(given_normal)) > 0.f)) {
             params.fail("normal", "must not be 0: it gives the front side");
             return;
@@ -68,7 +70,7 @@ public:
         }
         area_pdf_ = 1.f / area_;
         normal_ = Vec3f(crossed / area);
-        if (dot(normal_, to_world.normal(unit_normal)) < 0.f) normal_ = -normal_;
+        if ((dot(normal_, to_world.normal(unit_normal)) < 0.f) != flip_normals) normal_ = -normal_;
         shading_ = Frame(normal_);
         clearance_ = std::max(triangle_clearance(triangle(0), normal_, area),
                               triangle_clearance(triangle(1), normal_, area));

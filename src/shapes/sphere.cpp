@@ -22,6 +22,8 @@ namespace plumb {
 ///     center    point       the middle                                              (default 0 0 0)
 ///     radius    float       greater than 0                                          (default 1)
 ///     toWorld   transform   moves, turns, mirrors or scales evenly on all axes      (default: the identity)
+///     flipNormals   boolean   make the inside the front side                        (default false)
+///     flipU         boolean   u = phi / (2 pi)                                      (default false)
 ///
 ///         <shape type="sphere">
 ///             <point name="center" value="0 1 0"/>
@@ -34,6 +36,8 @@ public:
         const Vec3f center = params.point("center", Vec3f(0.f));
         const float radius = params.number("radius", 1.f, Range::positive());
         const Transform to_world = params.transform("toWorld");
+        side_ = params.boolean("flipNormals", false) ? -1.f : 1.f;
+        flip_u_ = params.boolean("flipU", false);
         const std::optional<double> scale = to_world.uniform_scale();
         if (!scale) {
             params.fail("toWorld", "scales a sphere unevenly, which makes an ellipsoid of it; use a mesh");
@@ -65,20 +69,21 @@ public:
         const Vec3d normal = normalize(origin + direction * t);
 
         SurfacePoint at;
-        at.geometric_normal = Vec3f(normal);
+        const Vec3f out(normal);
+        at.geometric_normal = out * side_;
         at.position = position(normal);
-        at.clearance = clearance_at(at.position, at.geometric_normal);
+        at.clearance = clearance_at(at.position, out);
         at.shading = Frame(at.geometric_normal);
-        at.uv = uv(at.geometric_normal);
+        at.uv = uv(out);
         at.primitive = primitive;
         return at;
     }
 
     Tangents tangents(const SurfacePoint& at) const override
     {
-        const Vec3f d = normalize(to_object_.vector(at.geometric_normal));
+        const Vec3f d = normalize(to_object_.vector(at.geometric_normal * side_));
         const float ring = std::sqrt(sqr(d.x) + sqr(d.y));
-        const Vec3f by_u = Vec3f(d.y, -d.x, 0.f) * two_pi;
+        const Vec3f by_u = Vec3f(d.y, -d.x, 0.f) * (flip_u_ ? -two_pi : two_pi);
         const Vec3f by_v = Vec3f(d.x * d.z / ring, d.y * d.z / ring, -ring) * pi;
         const Transform to_world = to_object_.inverse();
         if (!(ring > 0.f))
@@ -185,20 +190,22 @@ private:
         const Vec3f d = normalize(to_object_.vector(normal));
         const float phi = atan2(d.y, d.x);
         const float turn = (phi < 0.f ? phi + two_pi : phi) * inv_two_pi;
-        return {1.f - std::min(turn, 1.f), acos(d.z) * inv_pi};
+        return {flip_u_ ? std::min(turn, one_minus_epsilon) : 1.f - std::min(turn, 1.f), acos(d.z) * inv_pi};
     }
 
     ShapeSample sample_at(const Vec3d& normal, float pdf) const
     {
         const Vec3f p = position(normal);
         const Vec3f n(normal);
-        return {p, clearance_at(p, n), n, pdf, uv(n)};
+        return {p, clearance_at(p, n), n * side_, pdf, uv(n)};
     }
 
     Vec3f center_{0.f};
     float radius_ = 1.f;
     float given_radius_ = 1.f; // before toWorld
     float area_ = 4.f * pi;
+    float side_ = 1.f; // -1: the front is inside
+    bool flip_u_ = false;
     Transform to_object_;
 };
 

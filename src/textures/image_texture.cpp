@@ -28,6 +28,7 @@ public:
     Color mean() const override { return bitmap_.mean(); }
     float min_value() const override { return bitmap_.min_value(); }
     float max_value() const override { return bitmap_.max_value(); }
+    Vec2i resolution() const override { return {bitmap_.width(), bitmap_.height()}; }
     std::uint64_t memory_bytes() const override { return bitmap_.memory_bytes(); }
 
 private:

@@ -82,6 +82,35 @@ void add_option_words(Words& words)
         words.insert(word);
 }
 
+void add_ply_words(Words& words)
+{
+    for (const char* word : {"ply\n",
+                             "format ascii 1.0\n",
+                             "format binary_little_endian 1.0\n",
+                             "format binary_big_endian 1.0\n",
+                             "element vertex ",
+                             "element face ",
+                             "property float ",
+                             "property uchar ",
+                             "property double ",
+                             "property list uchar int ",
+                             "vertex_indices",
+                             "nx",
+                             "ny",
+                             "nz",
+                             "u",
+                             "v",
+                             "red",
+                             "color_0",
+                             "end_header\n",
+                             "nan",
+                             "1e18",
+                             "-1",
+                             "4294967296",
+                             "\r\n"})
+        words.insert(word);
+}
+
 void add_picture_words(Words& words)
 {
     for (const char* word : {"window ",
@@ -161,6 +190,7 @@ int main(int argc, char** argv)
     if (target == "options" || target == "headers" || target == "merge") add_option_words(words);
     if (target == "headers" || target == "merge" || target == "state" || target == "compare")
         add_picture_words(words);
+    if (target == "ply") add_ply_words(words);
     if (target == "obj")
         words = {"v ",   "vt ",  "vn ",      "f ",   "-1",    "1/1/1", "1//1",
                  "\r\n", "\\\n", "usemtl a", "1e38", "1e-40", "#"};

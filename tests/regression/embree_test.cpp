@@ -14,7 +14,7 @@
 
 namespace plumb {
 class Diffuse;
-class TriangleMesh;
+class ObjMesh;
 } // namespace plumb
 
 using namespace plumb;
@@ -72,7 +72,7 @@ TEST_CASE("trees built by any number of threads give the same hits", "[regressio
             parallel_for(1, threads, [&](std::size_t) { // the build takes the threads of this arena
                 std::vector<SceneObject> objects;
                 objects.push_back(
-                    {ParamsBuilder("mesh", "obj").string("filename", file).build<TriangleMesh, Shape>(),
+                    {ParamsBuilder("mesh", "obj").string("filename", file).build<ObjMesh, Shape>(),
                      ParamsBuilder("bsdf", "diffuse").build<Diffuse, Bsdf>(), nullptr, "soup"});
                 scene.emplace(std::move(objects), std::vector<std::unique_ptr<Emitter>>());
             });

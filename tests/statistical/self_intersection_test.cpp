@@ -23,7 +23,7 @@
 namespace plumb {
 class Diffuse;
 class Sphere;
-class TriangleMesh;
+class ObjMesh;
 } // namespace plumb
 
 namespace plumb::test {
@@ -79,7 +79,7 @@ std::unique_ptr<Shape> mesh_of(const Quad& quad, const TempDirectory& directory)
     std::string text;
     for (const Vec3f& p : quad.corners) text += fmt::format("v {} {} {}\n", p.x, p.y, p.z);
     const auto file = directory.write("quad.obj", text + "f 1 2 3\nf 1 3 4\n");
-    return ParamsBuilder("mesh", "obj").string("filename", file.string()).build<TriangleMesh, Shape>();
+    return ParamsBuilder("mesh", "obj").string("filename", file.string()).build<ObjMesh, Shape>();
 }
 
 // Any direction, or one that almost lies in the surface.

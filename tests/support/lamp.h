@@ -17,7 +17,7 @@ class AreaEmitter;
 class Diffuse;
 class Rectangle;
 class Sphere;
-class TriangleMesh;
+class ObjMesh;
 } // namespace plumb
 
 namespace plumb::test {
@@ -78,7 +78,7 @@ inline std::unique_ptr<Shape> mesh(const std::string& text)
     const TempDirectory directory;
     return ParamsBuilder("mesh", "obj")
         .string("filename", directory.write("mesh.obj", text).string())
-        .build<TriangleMesh, Shape>();
+        .build<ObjMesh, Shape>();
 }
 
 // A bent sheet above the origin that faces down: two triangles of different sizes, and one without area.

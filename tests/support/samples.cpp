@@ -3,16 +3,11 @@
 #include "support/samples.h"
 
 #include "plumb/image/image.h"
+#include "support/mesh_files.h"
 
 namespace plumb::test {
 
 namespace {
-
-// A pyramid with normals and texture coordinates.
-constexpr std::string_view obj_file =
-    "v 0 0 0\nv 2 0 0.5\nv 2 0 2\nv 0 0 2\nv 1 1.5 1\n"
-    "vt 0 0\nvt 1 0.1\nvt 1 1\nvt 0.1 1\nvt 0.4 0.6\n"
-    "f 5/5 2/2 1/1\nf 5/5 3/3 2/2\nf 5/5 4/4 3/3\nf 5/5 1/1 4/4\nf 1/1 2/2 3/3 4/4\n";
 
 Image small_image()
 {
@@ -31,8 +26,9 @@ void make_files(const Element& element, const TempDirectory& directory)
         make_files(child, directory);
         if (child.tag != "string" || !child.value("name").starts_with("file")) continue;
         const std::filesystem::path name = child.value("value");
-        const std::filesystem::path file = directory.write(name, obj_file);
-        if (name.extension() != ".obj") write_image(file, small_image());
+        const std::string mesh = pyramid_file(name);
+        const std::filesystem::path file = directory.write(name, mesh);
+        if (mesh.empty()) write_image(file, small_image());
     }
 }
 

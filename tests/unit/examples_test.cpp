@@ -6,6 +6,7 @@
 #include "plumb/scene_file/scene_file.h"
 #include "scene_file/document.h"
 #include "support/catch.h"
+#include "support/mesh_files.h"
 #include "support/scene_text.h"
 
 using namespace plumb;
@@ -48,8 +49,8 @@ std::vector<std::string> examples_in(const std::string& lines)
 void make_file(const std::filesystem::path& file)
 {
     std::filesystem::create_directories(file.parent_path());
-    if (file.extension() == ".obj") {
-        std::ofstream(file) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    if (const std::string mesh = test::pyramid_file(file); !mesh.empty()) {
+        std::ofstream(file, std::ios::binary) << mesh;
         return;
     }
     write_image(file, Image(2, 2));

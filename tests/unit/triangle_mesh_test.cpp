@@ -10,7 +10,7 @@
 #include <vector>
 
 namespace plumb {
-class TriangleMesh;
+class ObjMesh;
 }
 
 namespace plumb::test {
@@ -34,10 +34,10 @@ public:
     {
         return ParamsBuilder("mesh", "obj").string("filename", directory_.write("mesh.obj", text).string());
     }
-    std::unique_ptr<Shape> read(const std::string& text) { return params(text).build<TriangleMesh, Shape>(); }
+    std::unique_ptr<Shape> read(const std::string& text) { return params(text).build<ObjMesh, Shape>(); }
     std::unique_ptr<Shape> read(const std::string& text, const Transform& to_world)
     {
-        return params(text).transform("toWorld", to_world).build<TriangleMesh, Shape>();
+        return params(text).transform("toWorld", to_world).build<ObjMesh, Shape>();
     }
 
 private:
@@ -237,19 +237,19 @@ TEST_CASE("a mesh without area, out of range or missing is an error", "[unit][sh
     const Transform tiny = *Transform::scale(Vec3d(1e-30));
     CHECK_THROWS_WITH(meshes.read(one_triangle, tiny), ContainsSubstring("area of 0"));
     const auto huge = meshes.params(one_triangle).transform("toWorld", *Transform::scale(Vec3d(1e39)));
-    CHECK_THAT((huge.complaints<TriangleMesh, Shape>().at(0)),
+    CHECK_THAT((huge.complaints<ObjMesh, Shape>().at(0)),
                ContainsSubstring("farther than a 32-bit float can represent"));
     const auto missing = ParamsBuilder("mesh", "obj").string("filename", "no/such.obj");
-    CHECK_THAT((missing.complaints<TriangleMesh, Shape>().at(0)), ContainsSubstring("no/such.obj"));
-    CHECK((missing.complaints<TriangleMesh, Shape>().size()) == 1);
-    CHECK((ParamsBuilder("mesh", "obj").complaints<TriangleMesh, Shape>().size()) == 1);
+    CHECK_THAT((missing.complaints<ObjMesh, Shape>().at(0)), ContainsSubstring("no/such.obj"));
+    CHECK((missing.complaints<ObjMesh, Shape>().size()) == 1);
+    CHECK((ParamsBuilder("mesh", "obj").complaints<ObjMesh, Shape>().size()) == 1);
 }
 
 TEST_CASE("what the reader repaired becomes a warning of the mesh", "[unit][shape]")
 {
     Meshes meshes;
     const std::string some_normals = "v 0 0 0\nv 2 0 0\nv 0 2 0\nvn 0 0 1\nf 1//1 2//1 3//1\nf 1 2 3\n";
-    const auto complaints = meshes.params(some_normals).complaints<TriangleMesh, Shape>();
+    const auto complaints = meshes.params(some_normals).complaints<ObjMesh, Shape>();
     REQUIRE(complaints.size() == 1);
     CHECK_THAT(complaints[0], ContainsSubstring("warning") && ContainsSubstring("normal"));
 }

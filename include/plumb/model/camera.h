@@ -23,6 +23,8 @@ public:
     virtual CameraRay sample_ray(const Vec2f& raster, const Vec2f& u_lens) const = 0;
     virtual Vec2i resolution() const = 0;
     virtual const Transform& to_world() const = 0;
+    // Whether filters reach beyond the edge of the picture; else they are cut there, and what is left of them counts as all.
+    virtual bool sample_border() const { return true; }
 };
 
 } // namespace plumb

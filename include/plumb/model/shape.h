@@ -3,6 +3,7 @@
 
 // The interface of shapes.
 
+#include "plumb/math/color.h"
 #include "plumb/math/direction_cone.h"
 #include "plumb/math/ray.h"
 #include "plumb/model/surface.h"
@@ -11,6 +12,9 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace plumb {
 
@@ -92,6 +96,14 @@ public:
     virtual std::optional<Ball> as_ball() const { return std::nullopt; } // if its surface is that of a ball
     virtual std::uint64_t triangle_count() const { return 0; }
     virtual std::uint64_t memory_bytes() const { return 0; } // of its mesh, if it has one
+
+    // Values that a mesh file gives its vertices or faces under a name, "vertex_color" say, as they are at a point that
+    // surface_at returned; nothing if there is no such attribute. One channel is a grey.
+    virtual std::vector<std::string> attribute_names() const { return {}; }
+    virtual std::optional<Color> attribute(std::string_view /*name*/, const SurfacePoint& /*at*/) const
+    {
+        return std::nullopt;
+    }
 };
 
 } // namespace plumb

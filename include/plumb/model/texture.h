@@ -21,6 +21,8 @@ public:
     // Bounds of every channel over all uv.
     virtual float min_value() const = 0;
     virtual float max_value() const = 0;
+    // Pixels of its image; 1 x 1 without one.
+    virtual Vec2i resolution() const { return {1, 1}; }
     virtual std::uint64_t memory_bytes() const { return 0; } // of its picture, if it has one
 
 protected:

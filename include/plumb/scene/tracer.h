@@ -74,6 +74,8 @@ public:
             return intersect_watched(ray, kind);
         return scene_.intersect(ray);
     }
+    // The same as if objects that emit were not there.
+    std::optional<SurfacePoint> intersect_behind_emitters(const Ray& ray, RayKind kind);
     bool occluded(const Ray& ray)
     {
         ++counts_.shadow;
@@ -102,6 +104,7 @@ public:
 
 private:
     std::optional<SurfacePoint> intersect_watched(const Ray& ray, RayKind kind);
+    void note(const Ray& ray, RayKind kind, const std::optional<SurfacePoint>& hit);
 
     const Scene& scene_;
     RayCounts counts_;

@@ -9,6 +9,7 @@
 #include "base/regular_file.h"
 #include "plumb/base/error.h"
 #include "plumb/shapes/mesh.h"
+#include "shapes/mesh_parts.h"
 #include "shapes/obj/obj_characters.h"
 #include "shapes/obj/obj_mesh.h"
 
@@ -25,51 +26,18 @@ namespace plumb {
 namespace {
 
 constexpr std::size_t chunk_size = std::size_t{1} << 20;
-// Above it, the number of lines might not fit an index.
-constexpr std::size_t max_size = std::size_t{8} << 30;
-
-struct Text {
-    std::unique_ptr<char[]> bytes;
-    std::size_t size;
-
-    std::string_view view() const { return {bytes.get(), size}; }
-};
 
 [[noreturn]] void fail(const std::filesystem::path& path, const std::string& reason)
 {
     throw Error(fmt::format("cannot read '{}': {}", path.string(), reason));
 }
 
-// Calls read(i) for all chunks, and throws what the first of those that failed has thrown.
-void read_chunks(std::size_t count, const std::function<void(std::size_t)>& read)
-{
-    std::vector<std::exception_ptr> problems(count);
-    parallel_for(count, 0, [&](std::size_t i) {
-        try {
-            read(i);
-        } catch (...) {
-            problems[i] = std::current_exception();
-        }
-    });
-    for (const std::exception_ptr& problem : problems)
-        if (problem) std::rethrow_exception(problem);
-}
-
 // The whole file, and line ends behind it: one for the last line, one more in case that it ends with a backslash.
-Text read_text(const std::filesystem::path& path)
+FileBytes read_text(const std::filesystem::path& path)
 {
-    const RegularFile file(path);
-    const std::uintmax_t size = file.size();
-    if (size == 0) file.fail("the file is empty");
-    if (size > max_size) file.fail("files of more than 8 GiB are not supported");
-
-    Text text{std::make_unique_for_overwrite<char[]>(size + 2), size + 2};
-    prefer_large_pages(text.bytes.get(), text.size);
-    read_chunks((size + chunk_size - 1) / chunk_size, [&](std::size_t i) {
-        const std::size_t begin = i * chunk_size;
-        file.read(begin, {text.bytes.get() + begin, std::min(chunk_size, size - begin)});
-    });
-    text.bytes[size] = text.bytes[size + 1] = '\n';
+    FileBytes text = read_file_bytes(path, 2);
+    text.bytes[text.size] = text.bytes[text.size + 1] = '\n';
+    text.size += 2;
     return text;
 }
 
@@ -94,8 +62,8 @@ ObjCounts operator+(const ObjCounts& a, const ObjCounts& b)
 
 MeshData read_mesh(const std::filesystem::path& path)
 {
-    Text text = read_text(path);
-    const ObjFile file{path.string(), text.view()};
+    FileBytes text = read_text(path);
+    const ObjFile file{path.string(), {text.bytes.get(), text.size}};
     const std::vector<std::string_view> parts = cut_into_chunks(file.text);
 
     std::vector<ObjCounts> before(parts.size());
@@ -111,7 +79,8 @@ MeshData read_mesh(const std::filesystem::path& path)
     found.uvs.resize(all.uvs);
     found.normals.resize(all.normals);
     std::vector<ObjChunk> chunks(parts.size());
-    read_chunks(parts.size(), [&](std::size_t i) { chunks[i] = scan_obj(file, parts[i], before[i], found); });
+    in_parallel_or_throw(parts.size(),
+                         [&](std::size_t i) { chunks[i] = scan_obj(file, parts[i], before[i], found); });
     check_obj(file, chunks, all);
 
     ObjMaterials materials;

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+
+// .serialized meshes.
+
+#include "fuzz/mesh.h"
+
+using namespace plumb;
+using namespace plumb::fuzz;
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+{
+    const auto path = write_file("mesh.serialized", text_of(data, size));
+    allow_our_errors([&] { expect_mesh(read_serialized(path, 0)); });
+    return 0;
+}
