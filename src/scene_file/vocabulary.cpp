@@ -205,6 +205,8 @@ private:
                 if (fits(row, kind, type) && (!row.type.empty() || kind_of_tag(kind).empty() ||
                                               std::find(ours.begin(), ours.end(), row.ours) != ours.end()))
                     known.push_back(row.theirs);
+        std::sort(known.begin(), known.end());
+        known.erase(std::unique(known.begin(), known.end()), known.end());
         return known;
     }
 
