@@ -16,6 +16,7 @@ namespace plumb {
 ///     mirrored       boolean     the image is flopped, left to right; the dialect eth sets it   (default false)
 ///     nearClip       float       nothing nearer to the camera's plane is seen, if given; in the world, whatever toWorld scales
 ///     farClip        float       nothing farther from it is seen, if given
+///     mirrored       boolean     the image is flopped, left to right; the dialect eth sets it   (default false)
 ///     cropOffsetX    integer     only a part of the picture is rendered: its first column   (default 0)
 ///     cropOffsetY    integer     its first row   (default 0)
 ///     cropWidth      integer     its width   (default: up to the right edge)

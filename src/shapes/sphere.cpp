@@ -148,6 +148,8 @@ private:
 
     std::optional<Cone> cone_from(const Vec3f& from) const
     {
+        // What shines inwards does not light the outside; and points on it may be outside by rounding.
+        if (side_ < 0.f) return std::nullopt;
         const Vec3d to_center = Vec3d(center_) - Vec3d(from);
         const double distance = length(to_center);
         const double r = radius_;

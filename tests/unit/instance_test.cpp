@@ -66,7 +66,7 @@ TEST_CASE("a group is seen through its instances alone", "[unit][instance]")
     const LoadedScene loaded =
         load_text(start + instance("pair", "<translate value='0,0,5'/>") + group("pair", ball + disk) +
                   instance("pair", "<scale value='-2,1,1'/><translate value='9,0,5'/>") + "</scene>");
-    const Scene& scene = loaded.job.scene;
+    const Scene& scene = *loaded.job.scene;
     CHECK(loaded.warnings.empty());
     CHECK(scene.objects().empty());
     REQUIRE(scene.instances().size() == 2);
@@ -121,7 +121,7 @@ TEST_CASE("an instance is one object in the layer of ids", "[unit][instance][aov
     const LoadedScene loaded =
         load_text(start + group("g", ball + disk) + disk + instance("g", "<translate value='5,0,0'/>") +
                   instance("g", "<translate value='9,0,0'/>") + "</scene>");
-    const Scene& scene = loaded.job.scene;
+    const Scene& scene = *loaded.job.scene;
     const AovView view(scene, *loaded.job.camera);
     const auto id_at = [&](float x) {
         const auto hit = scene.intersect({Vec3f(x, 0, 5), Vec3f(0, 0, -1)});
@@ -160,7 +160,7 @@ TEST_CASE("maps that floats cannot hold are refused, and rays that Embree refuse
     CHECK(InstanceMap::from(*Transform::scale({1e-8, 1e8, -1})));
     const LoadedScene loaded =
         load_text(start + group("g", ball) + instance("g", "<scale value='1e-8,1e-8,1e-8'/>") + "</scene>");
-    const Scene& scene = loaded.job.scene;
+    const Scene& scene = *loaded.job.scene;
     // In the space of the group its origin lies at 1e22.
     CHECK_FALSE(scene.intersect({Vec3f(1e14f, 0, 0), Vec3f(-1, 0, 0)}));
     CHECK_FALSE(scene.occluded({Vec3f(1e14f, 0, 0), Vec3f(-1, 0, 0)}));
@@ -181,7 +181,7 @@ TEST_CASE("a hundred thousand instances of ten thousand triangles take little me
     text = std::string();
     const std::uint64_t before = resident_bytes();
     const LoadedScene loaded = load_scene(file);
-    const Scene& scene = loaded.job.scene;
+    const Scene& scene = *loaded.job.scene;
     CHECK(scene.instances().size() == 100'000);
     CHECK(scene.triangle_count() == 9'940);
     CHECK(resident_bytes() - before < 1'000'000'000);
