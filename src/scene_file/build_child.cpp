@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "scene_file/build_child.h"
 
+#include "plumb/model/shape.h"
 #include "scene_file/shared_objects.h"
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "base/parallel.h"
 #include "plumb/base/hash.h"
+#include "plumb/scene/scene.h"
 #include "plumb/scene_file/scene_file.h"
 #include "scene_file/after_load.h"
 #include "scene_file/build.h"
@@ -87,6 +88,8 @@ struct SceneFile::Impl {
           context{diagnostics, choice.dialect, settings.lenient, {}},
           builder(expansion.root, context)
     {
+        of_tree = diagnostics;
+        shared_texture_bytes = context.texture_bytes;
         seconds = seconds_since(start);
     }
 
@@ -107,6 +110,8 @@ struct SceneFile::Impl {
     const DialectChoice choice;
     LoadContext context;
     SceneBuilder builder;
+    Diagnostics of_tree;
+    std::uint64_t shared_texture_bytes = 0;
     double seconds = 0.0; // of reading the tree, until the first load() has told
     std::shared_ptr<const Scene> scene;
     std::vector<InputFile> inputs; // of the scene
@@ -145,7 +150,11 @@ LoadedScene SceneFile::load_with(const MethodSettings& method, const ViewSetting
     // The tree becomes objects.
     const bool is_new = !file.scene || file.scene->options().instruction_set != method.instruction_set;
     SceneContents contents;
-    if (is_new) contents = file.builder.build_contents();
+    if (is_new) {
+        diagnostics = file.of_tree;
+        file.context.texture_bytes = file.shared_texture_bytes;
+        contents = file.builder.build_contents();
+    }
     const Diagnostics of_scene = diagnostics;
     MethodAndView parts = file.builder.build_method_and_view(method, view);
     if (diagnostics.has_errors()) fail(diagnostics, file.expansion.files);
