@@ -7,6 +7,7 @@
 #include "cli/verb_file.h"
 #include "cli/verbs.h"
 #include "fuzz/fuzz.h"
+#include "plumb/render/sample_set.h"
 #include "plumb/settings/settings_header.h"
 
 using namespace plumb;
