@@ -29,6 +29,9 @@ LAYERS = [
     ["suite_file", "test_file"],
     ["estimator_checks"],
     ["compare"],
+    ["rendering"],
+    ["experiments"],
+    ["reports"],
     ["cli"],
 ]
 
@@ -42,7 +45,7 @@ DOORS = {
     "oneTBB": (r"(oneapi/)?tbb(/|\.h)", ["src/render/render*.cpp", "src/base/parallel*.cpp"]),
     "OpenSSL": (r"openssl/", ["src/base/sha256.cpp"]),
     "zlib": (r"zlib\.h", ["src/shapes/serialized/inflated.cpp"]),
-    "CLI11": (r"CLI/", ["src/cli/options*.cpp"]),
+    "CLI11": (r"CLI/", ["src/cli/parse*.cpp"]),
     "Imath": (r"Imath", ["include/plumb/math/math.h", "include/plumb/math/transform.h"]),
 }
 

@@ -12,7 +12,9 @@
 // Prints one line of JSON.
 
 #include "base/float_mode.h"
+#include "plumb/model/shape.h"
 #include "plumb/scene/instruction_set.h"
+#include "plumb/scene/scene.h"
 #include "plumb/scene_file/scene_file.h"
 
 #include <atomic>

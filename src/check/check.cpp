@@ -5,7 +5,9 @@
 #include "check/coincidence_doubts.h"
 #include "check/mesh_facts.h"
 #include "check/precision_doubts.h"
+#include "plumb/model/shape.h"
 #include "plumb/sampling/sampling.h"
+#include "plumb/scene/scene.h"
 #include "plumb/scene/tracer.h"
 
 #include <algorithm>

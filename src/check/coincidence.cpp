@@ -5,6 +5,7 @@
 #include "check/box_pairs.h"
 #include "check/surface_triangles.h"
 #include "check/triangle_overlap.h"
+#include "plumb/model/shape.h"
 
 #include <algorithm>
 #include <map>

@@ -3,6 +3,7 @@
 #include "check/mesh_facts.h"
 
 #include "check/surface_triangles.h"
+#include "plumb/model/shape.h"
 
 #include <algorithm>
 

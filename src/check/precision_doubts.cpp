@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "check/precision_doubts.h"
+#include "plumb/model/shape.h"
+#include "plumb/scene/scene.h"
 
 #include <algorithm>
 #include <fmt/format.h>

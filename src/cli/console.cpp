@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cli/console.h"
 
+#include "base/terminal_text.h"
 #include "base/visible_text.h"
 #include "plumb/base/error.h"
 
@@ -34,6 +35,26 @@ void write_error(std::string_view text)
     write_all(stderr, text, ignored);
 }
 
+// By no-color.org.
+bool has_colors()
+{
+    const char* none = std::getenv("NO_COLOR");
+    return log_is_terminal() && !(none && *none);
+}
+
+// A message. Whatever steers a terminal is ours.
+void write_message(const std::string& text)
+{
+    write_error((has_colors() ? with_colors(text) : text) + "\n");
+}
+
+int columns_of(int stream)
+{
+    winsize size{};
+    if (ioctl(stream, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return 80;
+    return size.ws_col;
+}
+
 } // namespace
 
 void prepare_console()
@@ -49,12 +70,12 @@ void prepare_console()
 
 void print_log(std::string_view line)
 {
-    write_error(visible_text(line) + "\n");
+    write_message(visible_text(line));
 }
 
 void print_log(const Diagnostic& diagnostic)
 {
-    write_error(diagnostic.text() + "\n");
+    write_message(diagnostic.text());
 }
 
 void print_output(std::string_view text)
@@ -86,9 +107,12 @@ bool log_is_terminal()
 
 int terminal_columns()
 {
-    winsize size{};
-    if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return 80;
-    return size.ws_col;
+    return columns_of(STDERR_FILENO);
+}
+
+int output_columns()
+{
+    return columns_of(STDOUT_FILENO);
 }
 
 void redraw_line(std::string_view text)

@@ -23,6 +23,7 @@ void finish_output(); // throws Error if standard output could not take everythi
 // Standard error is a terminal that can redraw a line.
 bool log_is_terminal();
 int terminal_columns();                  // of standard error; 80 where nobody knows
+int output_columns();                    // of standard output; 80 where it is no terminal
 void redraw_line(std::string_view text); // replaces the line that the cursor is in; "" clears it
 
 } // namespace plumb

@@ -10,8 +10,10 @@ namespace plumb {
 
 namespace {
 
-std::atomic<int> noted = 0;
-static_assert(std::atomic<int>::is_always_lock_free); // so that a signal handler may use it
+std::atomic<int> noted = 0; // the signal
+std::atomic<bool> came = false;
+// So that a signal handler may use them.
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
 
 // Those by hand first.
 constexpr std::array numbers = {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1, SIGXCPU};
@@ -22,7 +24,10 @@ std::size_t caught = 0; // of them
 extern "C" void note_signal(int number)
 {
     int none = 0;
-    if (noted.compare_exchange_strong(none, number)) return;
+    if (noted.compare_exchange_strong(none, number)) {
+        came = true;
+        return;
+    }
     if (number == SIGINT || number == SIGTERM || number == SIGQUIT) _exit(128 + none);
 }
 
@@ -31,6 +36,7 @@ extern "C" void note_signal(int number)
 InterruptGuard::InterruptGuard(Interruption kind)
 {
     noted = 0;
+    came = false;
     caught = kind == Interruption::by_hand ? count_by_hand : numbers.size();
     struct sigaction action {};
     action.sa_handler = note_signal;
@@ -49,6 +55,11 @@ InterruptGuard::InterruptGuard(Interruption kind)
 InterruptGuard::~InterruptGuard()
 {
     for (std::size_t i = 0; i < caught; ++i) sigaction(numbers[i], &before[i], nullptr);
+}
+
+const std::atomic<bool>& InterruptGuard::flag()
+{
+    return came;
 }
 
 int InterruptGuard::signal()

@@ -3,6 +3,8 @@
 
 // Signals while a picture is rendered.
 
+#include <atomic>
+
 namespace plumb {
 
 // Which signals are told to stop.
@@ -21,7 +23,8 @@ public:
     InterruptGuard& operator=(const InterruptGuard&) = delete;
     ~InterruptGuard();
 
-    static int signal(); // that came; 0: none
+    static int signal();                    // that came; 0: none
+    static const std::atomic<bool>& flag(); // whether one came
 };
 
 } // namespace plumb

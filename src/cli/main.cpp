@@ -1,32 +1,22 @@
 // SPDX-License-Identifier: MIT
 #include "cli/console.h"
-#include "cli/exit_codes.h"
 #include "cli/verbs.h"
+#include "reports/exit_codes.h"
 
 #include "plumb/base/error.h"
 
 #include <cstdlib>
 #include <exception>
 #include <new>
+#include <string>
 #include <system_error>
+#include <vector>
 
 #include <unistd.h>
 
 namespace {
 
 using namespace plumb;
-
-// Returns the exit code.
-int run(const Options& options)
-{
-    if (options.help)
-        print_output(help_text(options.verb));
-    else if (options.version)
-        print_output("Plumb " PLUMB_VERSION "\n");
-    else
-        return row_of(options.verb).run(options);
-    return exit_code::done;
-}
 
 int complain(int code, const std::string& message)
 {
@@ -49,17 +39,15 @@ int main(int argc, char** argv)
 {
     prepare_console();
     std::set_terminate(on_terminate);
-    Options options;
     try {
-        options = parse_options({argv + (argc > 0), argv + argc});
-        const int code = run(options);
+        const std::vector<std::string> words{argv + (argc > 0), argv + argc};
+        const int code = verb_of(words).parse(words)();
         finish_output();
         return code;
     } catch (const UsageError& error) {
         return complain(exit_code::usage, error.what());
     } catch (const SceneError& error) {
-        for (const Diagnostic& diagnostic : error.diagnostics())
-            if (diagnostic.severity == Severity::error || !options.quiet) print_log(diagnostic);
+        for (const Diagnostic& diagnostic : error.diagnostics()) print_log(diagnostic);
         return exit_code::error;
     } catch (const FileError& error) {
         print_log(Diagnostic{Severity::error, error.location(), error.what()});

@@ -1,127 +1,55 @@
 // SPDX-License-Identifier: MIT
 #include "cli/outputs.h"
 
+#include "base/text_file.h"
 #include "cli/console.h"
-#include "cli/text.h"
-#include "cli/text_file.h"
 #include "cli/usage_error.h"
+#include "rendering/output_files.h"
 
-#include "base/parallel.h"
-#include "base/temporary_file.h"
-#include "plumb/base/error.h"
 #include "plumb/image/image.h"
 
-#include <algorithm>
+#include <filesystem>
 #include <fmt/format.h>
 
 namespace plumb {
 
 namespace {
 
-// The same for every name of a file; empty if there is none.
-std::filesystem::path identity(const std::filesystem::path& file)
-{
-    std::error_code failed;
-    const auto path =
-        std::filesystem::weakly_canonical(std::filesystem::absolute(end_of_links(file), failed), failed);
-    return failed ? std::filesystem::path() : path;
-}
-
 bool is_file(const std::string& json)
 {
     return !json.empty() && json != "-";
 }
 
-std::vector<std::string> all_files(std::vector<std::string> images, const std::string& json)
-{
-    if (is_file(json)) images.push_back(json);
-    return images;
-}
-
-// A name in the directory that no file has: "a.exr", "a-1.exr", "a-2.exr" and so on.
-std::filesystem::path free_name(const std::filesystem::path& directory, const std::filesystem::path& file)
-{
-    std::filesystem::path path = directory / file;
-    std::error_code ignored;
-    for (int i = 1; std::filesystem::exists(path, ignored); ++i)
-        path = directory / fmt::format("{}-{}{}", file.stem().string(), i, file.extension().string());
-    return path;
-}
-
-// A picture may have taken long. If its directory is gone it goes into the refuge, or else the current directory. Where it is
-// then, for a message; empty: nowhere.
-std::string write_into_refuge(const std::filesystem::path& output, const Image& image, float exposure,
-                              Packing packing, const std::filesystem::path& refuge)
-{
-    std::error_code ignored;
-    if (!output.has_parent_path() || std::filesystem::exists(output.parent_path(), ignored)) return {};
-    for (const std::filesystem::path& directory : {refuge, std::filesystem::path()}) {
-        const std::filesystem::path path = free_name(directory, output.filename());
-        try {
-            write_image(path, image, exposure, packing);
-            return fmt::format("; the image was written to '{}' instead", path.string());
-        } catch (const Error&) { // the message is that of the file that was asked for
-        }
-    }
-    return {};
-}
-
 } // namespace
+
+void check_output_names(const std::vector<std::string>& outputs,
+                        const std::vector<std::pair<std::string_view, std::string>>& others)
+{
+    std::vector<std::pair<std::filesystem::path, std::string>> seen;
+    const auto check = [&](const std::string& file, std::string_view option) {
+        if (file.empty()) throw UsageError(fmt::format("{} needs a file name", option));
+        const auto path = std::filesystem::path(file).lexically_normal();
+        for (const auto& [other, name] : seen)
+            if (other == path) throw UsageError(fmt::format("'{}' is listed as an output twice", name));
+        seen.emplace_back(path, file);
+    };
+    for (const std::string& file : outputs) check(file, "--output");
+    for (const auto& [option, file] : others)
+        if (is_file(file)) check(file, option);
+}
 
 void check_outputs(const std::vector<std::string>& images, const std::string& json)
 {
     for (const std::string& image : images) check_image_path(image);
     if (is_file(json)) check_text_path(json);
-    std::vector<std::filesystem::path> seen;
-    for (const std::string& file : all_files(images, json)) {
-        const std::filesystem::path path = identity(file);
-        if (path.empty()) continue;
-        if (std::find(seen.begin(), seen.end(), path) != seen.end())
-            throw UsageError(fmt::format("'{}' is listed as an output twice", file));
-        seen.push_back(path);
-    }
+    if (const auto twice = listed_twice(with_json(images, json)))
+        throw UsageError(fmt::format("'{}' is listed as an output twice", *twice));
 }
 
-KeptFiles::KeptFiles(const std::vector<std::filesystem::path>& files)
+std::vector<std::string> with_json(std::vector<std::string> images, const std::string& json)
 {
-    for (const std::filesystem::path& file : files)
-        if (const auto path = identity(file); !path.empty()) identities_.insert(path);
-}
-
-bool KeptFiles::contains(const std::filesystem::path& file) const
-{
-    return identities_.contains(identity(file));
-}
-
-void refuse_overwriting_inputs(const KeptFiles& inputs, const std::vector<std::string>& images,
-                               const std::string& json, std::string_view reason)
-{
-    for (const std::string& file : all_files(images, json))
-        if (inputs.contains(file)) throw Error(fmt::format("cannot write '{}': {}", file, reason));
-}
-
-Packing packing_of(const Evidence& evidence)
-{
-    return evidence.stop == interruption ? Packing::fast : Packing::small;
-}
-
-void write_pictures(const std::vector<std::string>& outputs, const Image& image, float exposure,
-                    Packing packing, const std::filesystem::path& refuge)
-{
-    std::vector<std::string> problem_of(outputs.size());
-    parallel_for(outputs.size(), 0, [&](std::size_t i) {
-        try {
-            write_image(outputs[i], image, exposure, packing);
-        } catch (const Error& error) {
-            problem_of[i] = error.what();
-        }
-    });
-    std::vector<std::string> problems;
-    for (std::size_t i = 0; i < outputs.size(); ++i)
-        if (!problem_of[i].empty())
-            problems.push_back(problem_of[i] +
-                               write_into_refuge(outputs[i], image, exposure, packing, refuge));
-    if (!problems.empty()) throw Error(list_text(problems));
+    if (is_file(json)) images.push_back(json);
+    return images;
 }
 
 void write_json(const std::string& json, std::string_view text)

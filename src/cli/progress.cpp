@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "cli/progress.h"
 
+#include "base/text.h"
 #include "cli/console.h"
-#include "cli/text.h"
+#include "plumb/render/render.h"
 
 #include <fmt/format.h>
 
@@ -78,6 +79,11 @@ ProgressDisplay::~ProgressDisplay()
 void ProgressDisplay::show(const Progress& progress)
 {
     if (quiet_) return;
+    if (progress.seconds < last_seconds_) { // another rendering
+        next_redraw_ = 0.0;
+        pace_ = {};
+    }
+    last_seconds_ = progress.seconds;
     if (!terminal_) {
         if (pace_.due(progress)) print_log(progress_line(progress));
         return;

@@ -3,11 +3,11 @@
 
 // How far a rendering is: a bar on a terminal, a line now and then elsewhere.
 
-#include "plumb/render/render.h"
-
 #include <string>
 
 namespace plumb {
+
+struct Progress;
 
 int percent_done(const Progress& progress); // rounded down: 100 means finished
 // "42 %, 1.26 M of 3.00 M samples, 0:04, 0:05 left, 5.00 Mrays/s": done, elapsed, remaining.
@@ -24,7 +24,7 @@ private:
     double next_seconds_ = 5.0;
 };
 
-// Prints to the console; an object's end clears the bar.
+// Prints to the console, of one rendering or of several after each other; an object's end clears the bar.
 class ProgressDisplay {
 public:
     explicit ProgressDisplay(bool quiet);
@@ -39,6 +39,7 @@ private:
     bool terminal_;
     bool drawn_ = false;
     double next_redraw_ = 0.0; // seconds
+    double last_seconds_ = 0.0;
     LinePace pace_;
 };
 

@@ -1,123 +1,110 @@
 // SPDX-License-Identifier: MIT
 #include "cli/verbs.h"
 
-#include "cli/commands.h"
-#include "cli/manuals.h"
-#include "cli/text.h"
+#include "base/terminal_text.h"
+#include "cli/console.h"
+#include "reports/exit_codes.h"
 
+#include "plumb/base/error.h"
+
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace plumb {
 
-namespace {
-
-constexpr std::size_t any_number = 100000;
-
-// What a verb is asked for, of what the command line says.
-
-ReplayRequest replay_request(const Options& options)
-{
-    ReplayRequest request = options.replay;
-    static_cast<SceneRequest&>(request) = options;
-    return request;
-}
-
-RerunRequest rerun_request(const Options& options)
-{
-    return {options.subject, options.rerun.scene, options.outputs, options.json,
-            options.threads, options.quiet,       options.verbose};
-}
-
-MergeRequest merge_request(const Options& options)
-{
-    return {
-        options.subjects, options.outputs, options.checkpoint.file, options.json, options.merge.allow_missing,
-        options.quiet};
-}
-
-TestRequest test_request(const Options& options)
-{
-    return {options.subjects, options.settings, options.threads, options.json, options.quiet};
-}
-
-CompareRequest compare_request(const Options& options)
-{
-    CompareRequest request = options.compare;
-    request.a = options.subjects[0];
-    request.b = options.subjects[1];
-    request.json = options.json;
-    request.quiet = options.quiet;
-    return request;
-}
-
-RaceRequest race_request(const Options& options)
-{
-    RaceRequest request = options.race;
-    static_cast<SceneRequest&>(request) = options;
-    request.how = options.compare.how;
-    request.threads = options.threads;
-    request.json = options.json;
-    return request;
-}
-
-BatchRequest batch_request(const Options& options)
-{
-    BatchRequest request = options.batch;
-    request.suite = options.subject;
-    request.definitions = options.settings.scene.definitions;
-    request.threads = options.threads;
-    request.quiet = options.quiet;
-    return request;
-}
-
-constexpr VerbRow rows[] = {
-    {Verb::render, "", "SCENE [-o IMAGE]... [options]", "render an image", "scene file", 1, 1,
-     [](const Options& o) { return render_command(o); }},
-    {Verb::new_scene, "new", "FILE", "write a small scene to begin with", "scene file", 1, 1,
-     [](const Options& o) { return new_command(o.subject, o.quiet); }, new_manual},
-    {Verb::help, "help", "[VERB]", "print this help, or that of a verb", "verb", 0, 1,
-     [](const Options& o) { return help_command(o.subject); }},
-    {Verb::types, "types", "[NAME]", "list all types, or print a manual", "name", 0, 1,
-     [](const Options& o) { return types_command(o.subject); }},
-    {Verb::info, "info", "IMAGE", "print the header of an image", "image", 1, 1,
-     [](const Options& o) { return info_command(o.subject); }},
-    {Verb::replay, "replay", "SCENE --pixel X,Y --sample I [options]", "print the path of one sample",
-     "scene file", 1, 1, [](const Options& o) { return replay_command(replay_request(o)); }},
-    {Verb::rerun, "rerun", "IMAGE -o IMAGE [options]", "render an image again from its header", "image", 1, 1,
-     [](const Options& o) { return rerun_command(rerun_request(o)); }, rerun_manual},
-    {Verb::merge, "merge", "PART... [-o IMAGE]... [--checkpoint FILE]", "merge parts of an image", "part", 1,
-     any_number, [](const Options& o) { return merge_command(merge_request(o)); }, merge_manual},
-    {Verb::check, "check", "SCENE [options]", "check a scene for likely mistakes", "scene file", 1, 1,
-     [](const Options& o) { return check_command(o); }, check_manual},
-    {Verb::compare, "compare", "A B [options]", "are two images equal except for noise?", "image", 2, 2,
-     [](const Options& o) { return compare_command(compare_request(o)); }, compare_manual},
-    {Verb::agree, "agree", "SCENE [options]", "do the estimators agree on a scene?", "scene file", 1, 1,
-     [](const Options& o) { return agree_command(race_request(o)); }, agree_manual},
-    {Verb::race, "race", "SCENE [options]", "which estimator is the most efficient?", "scene file", 1, 1,
-     [](const Options& o) { return race_command(race_request(o)); }, race_manual},
-    {Verb::test, "test", "FILE... [options]", "run a course's statistical tests", "test file", 1, any_number,
-     [](const Options& o) { return test_command(test_request(o)); }, test_manual},
-    {Verb::batch, "batch", "SUITE [options]", "render and compare all images of a suite", "suite", 1, 1,
-     [](const Options& o) { return batch_command(batch_request(o)); }, batch_manual},
+// A row for each.
+static constexpr const Verb& (*const rows[])() = {
+    verb<struct RenderVerb>,  //
+    verb<struct NewVerb>,     //
+    verb<struct HelpVerb>,    //
+    verb<struct TypesVerb>,   //
+    verb<struct InfoVerb>,    //
+    verb<struct ReplayVerb>,  //
+    verb<struct RerunVerb>,   //
+    verb<struct MergeVerb>,   //
+    verb<struct CheckVerb>,   //
+    verb<struct CompareVerb>, //
+    verb<struct AgreeVerb>,   //
+    verb<struct RaceVerb>,    //
+    verb<struct TestVerb>,    //
+    verb<struct BatchVerb>,   //
 };
 
-} // namespace
-
-std::string VerbRow::command() const
+std::span<const Verb* const> all_verbs()
 {
-    return fmt::format("renderer {}{}{}", name, name.empty() ? "" : " ", arguments);
+    static const std::vector<const Verb*> verbs = [] {
+        std::vector<const Verb*> all;
+        for (const auto& row : rows) all.push_back(&row());
+        return all;
+    }();
+    return verbs;
 }
 
-std::span<const VerbRow> verb_rows()
+const Verb& verb_of(const std::vector<std::string>& words)
 {
-    return rows;
+    for (const Verb* one : all_verbs())
+        if (!words.empty() && !one->name.empty() && words.front() == one->name) return *one;
+    return *all_verbs().front();
 }
 
-const VerbRow& row_of(Verb verb)
+const Verb* find_verb(std::string_view name)
 {
-    for (const VerbRow& row : rows)
-        if (row.verb == verb) return row;
-    return rows[0];
+    for (const Verb* one : all_verbs())
+        if (one->name == name || (one->name.empty() && name == "render")) return one;
+    return nullptr;
+}
+
+std::string command_of(const VerbHelp& verb)
+{
+    return fmt::format("renderer {}{}{}", verb.name, verb.name.empty() ? "" : " ", verb.arguments);
+}
+
+std::string help_text(const Verb& asked)
+{
+    std::string text;
+    if (asked.name.empty()) {
+        constexpr std::size_t width = 32; // of a command with its summary beside it
+        for (const Verb* one : all_verbs()) {
+            const std::string command = command_of(*one);
+            text += fmt::format("{} {:<{}}", text.empty() ? "usage:" : "      ", command, width);
+            text += command.size() > width ? fmt::format("\n{:<{}}", "", width + 8) : " ";
+            text += fmt::format("{}\n", one->summary);
+        }
+        text += "If a scene file has the name of a verb, write it as ./types.\n";
+    } else {
+        text = fmt::format("usage: {}\n{}", command_of(asked), asked.manual);
+    }
+    const OptionHelp* last = nullptr;
+    for (const OptionHelp& option : asked.options) {
+        if (!last || option.topic != last->topic) text += "\n";
+        last = &option;
+        std::string names = option.names;
+        names = names.starts_with("--") ? "    " + names : names.replace(2, 1, ", ");
+        std::string_view help = option.help;
+        text += fmt::format("  {:<24} {}\n", names + " " + option.value, help.substr(0, help.find('\n')));
+        while (help.find('\n') != std::string_view::npos) {
+            help.remove_prefix(help.find('\n') + 1);
+            text += fmt::format("  {:<24} {}\n", "", help.substr(0, help.find('\n')));
+        }
+    }
+    return text;
+}
+
+int run_verb(std::string_view name, const VerbOptions& options, const std::function<int()>& work)
+{
+    if (options.help || options.version) {
+        print_output(options.help ? rewrapped(help_text(*find_verb(name)), output_columns())
+                                  : "Plumb " PLUMB_VERSION "\n");
+        return exit_code::done;
+    }
+    try {
+        return work();
+    } catch (const SceneError& error) {
+        if (!options.quiet) throw;
+        std::vector<Diagnostic> errors = error.diagnostics();
+        std::erase_if(errors, [](const Diagnostic& one) { return one.severity != Severity::error; });
+        throw SceneError(std::move(errors));
+    }
 }
 
 bool is_no_file_name(std::string_view word)
@@ -127,16 +114,16 @@ bool is_no_file_name(std::string_view word)
 
 std::string unknown_verb(std::string_view word)
 {
-    const std::string_view verb = closest_verb(word);
-    return verb.empty() ? fmt::format("unknown verb '{}'; 'renderer --help' lists the verbs", word)
-                        : fmt::format("unknown verb '{}'; did you mean '{}'?", word, verb);
+    const std::string_view near = closest_verb(word);
+    return near.empty() ? fmt::format("unknown verb '{}'; 'renderer --help' lists the verbs", word)
+                        : fmt::format("unknown verb '{}'; did you mean '{}'?", word, near);
 }
 
 std::string_view closest_verb(std::string_view word)
 {
     std::vector<std::string_view> names;
-    for (const VerbRow& row : rows)
-        if (!row.name.empty()) names.push_back(row.name);
+    for (const Verb* one : all_verbs())
+        if (!one->name.empty()) names.push_back(one->name);
     return closest_name(word, names);
 }
 

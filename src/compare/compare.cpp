@@ -93,12 +93,8 @@ CompareOutcome find_outcome(const Comparison& comparison, const CompareSettings&
                                                                         : CompareOutcome::undecided;
 }
 
-} // namespace
-
-Comparison compare(const Image& image_a, const Image& image_b, const CompareSettings& options)
+Comparison compare_pictures(Picture a, Picture b, const CompareSettings& options)
 {
-    Picture a = make_picture(image_a, Side::a, options.layer);
-    Picture b = make_picture(image_b, Side::b, options.layer);
     check_comparable(a, b);
     a.is_exact = options.exact == Side::a;
     b.is_exact = options.exact == Side::b;
@@ -123,6 +119,27 @@ Comparison compare(const Image& image_a, const Image& image_b, const CompareSett
         if (is_exceeded(result.metrics, threshold)) result.exceeded.push_back(threshold);
     result.outcome = find_outcome(result, options, tolerated_pixels(a, options));
     return result;
+}
+
+} // namespace
+
+Comparison compare(const Estimate& a, const Estimate& b, const CompareSettings& settings)
+{
+    const auto picture = [&](const Estimate& one, Side side) {
+        return make_picture(one.image, {one.samples_per_pixel, one.estimator, one.seed}, side,
+                            settings.layer);
+    };
+    Picture picture_a = picture(a, Side::a); // the first to complain
+    return compare_pictures(std::move(picture_a), picture(b, Side::b), settings);
+}
+
+Comparison compare(const Image& a, const Image& b, const CompareSettings& settings)
+{
+    const auto picture = [&](const Image& image, Side side) {
+        return make_picture(image, facts_of_header(image), side, settings.layer);
+    };
+    Picture picture_a = picture(a, Side::a); // the first to complain
+    return compare_pictures(std::move(picture_a), picture(b, Side::b), settings);
 }
 
 } // namespace plumb

@@ -133,17 +133,22 @@ bool Picture::variance_is_known(std::size_t pixel) const
     return true;
 }
 
-Picture make_picture(const Image& image, Side side, const std::string& layer)
+ImageFacts facts_of_header(const Image& image)
+{
+    return {samples_per_pixel(image), estimator_of(image), header_text(image, "plumb:seed")};
+}
+
+Picture make_picture(const Image& image, ImageFacts facts, Side side, const std::string& layer)
 {
     Picture picture;
+    picture.estimator = std::move(facts.estimator);
+    picture.seed = std::move(facts.seed);
     picture.window = image.data_window();
     picture.full_width = image.full_width();
     picture.full_height = image.full_height();
     if (!layer.empty()) {
         picture.channels = channels_of_layer(image, side, layer);
         picture.values = read_channels(image, *find_channels(image, picture.channels));
-        picture.estimator = estimator_of(image);
-        picture.seed = header_text(image, "plumb:seed");
         return picture;
     }
     for (const std::vector<std::string>& names : {std::vector<std::string>{"R", "G", "B"}, {"Y"}}) {
@@ -157,9 +162,7 @@ Picture make_picture(const Image& image, Side side, const std::string& layer)
             picture.variances = read_channels(image, *found);
         if (const auto found = find_channels(image, {"contributing"}))
             picture.contributing = read_channels(image, *found);
-        picture.samples_per_pixel = samples_per_pixel(image);
-        picture.estimator = estimator_of(image);
-        picture.seed = header_text(image, "plumb:seed");
+        picture.samples_per_pixel = facts.samples_per_pixel;
         return picture;
     }
     throw Error(

@@ -16,7 +16,7 @@ struct Picture {
     std::vector<float> variances;      // likewise; empty: unknown
     std::vector<float> contributing;   // one a pixel; empty: unknown
     std::optional<double> samples_per_pixel;
-    std::string estimator; // what the header says of scene, settings and integrator; empty: not enough
+    std::string estimator; // Estimate's
     std::string seed;      // of its random numbers; empty: unknown
 
     std::size_t pixels() const { return values.size() / channels.size(); }
@@ -36,11 +36,19 @@ struct Picture {
     bool variance_is_known(std::size_t pixel) const;
 };
 
+// What is known of an image besides its channels.
+struct ImageFacts {
+    std::optional<double> samples_per_pixel;
+    std::string estimator;
+    std::string seed;
+};
+ImageFacts facts_of_header(const Image& image);
+
 // `side` names the picture in messages. layer: empty, or the channels layer.* instead of R, G and B, or Y. Throws Error if they
 // are not there.
-Picture make_picture(const Image& image, Side side, const std::string& layer = {});
+Picture make_picture(const Image& image, ImageFacts facts, Side side, const std::string& layer = {});
 
-// The samples of both have one distribution: the headers name the same inputs, settings and integrator.
+// The samples of both have one distribution.
 bool are_of_one_estimator(const Picture& a, const Picture& b);
 // And the same random numbers.
 bool share_random_numbers(const Picture& a, const Picture& b);

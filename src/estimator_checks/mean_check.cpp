@@ -3,6 +3,7 @@
 #include "base/parallel.h"
 #include "estimator_checks/statistic.h"
 #include "plumb/math/elementary.h"
+#include "plumb/scene/tracer.h"
 #include "plumb/statistics/mean_and_variance.h"
 #include "plumb/statistics/statistics.h"
 

@@ -2,6 +2,7 @@
 
 #include "plumb/base/error.h"
 #include "plumb/model/camera.h"
+#include "plumb/model/shape.h"
 #include "plumb/render/aovs.h"
 #include "plumb/scene/tracer.h"
 

@@ -6,6 +6,7 @@
 #include "base/parallel.h"
 #include "plumb/base/error.h"
 #include "plumb/render/aovs.h"
+#include "plumb/scene/tracer.h"
 #include "render/film_edge.h"
 #include "render/tiles.h"
 

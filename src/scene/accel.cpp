@@ -6,6 +6,7 @@
 
 #include "base/emplace_with.h"
 #include "plumb/base/error.h"
+#include "plumb/model/shape.h"
 #include "plumb/scene/instruction_set.h"
 #include "scene/accel_rays.h"
 

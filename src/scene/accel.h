@@ -4,6 +4,7 @@
 // The acceleration structure: Embree behind a door. It says which primitive a ray meets first and nothing else;
 // where exactly is computed by the shape.
 
+#include "plumb/model/shape.h"
 #include "plumb/scene/scene.h"
 
 #include <atomic>

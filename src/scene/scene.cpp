@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "plumb/scene/scene.h"
+#include "plumb/model/shape.h"
 
 #include "scene/accel.h"
 

@@ -2,6 +2,8 @@
 #include "scene_file/after_load.h"
 
 #include "plumb/model/dialect.h"
+#include "plumb/model/shape.h"
+#include "plumb/scene/scene.h"
 #include "plumb/scene_file/scene_file.h"
 
 #include <algorithm>

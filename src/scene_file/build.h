@@ -4,6 +4,7 @@
 // From the tree of a scene file to the parts of a RenderJob.
 
 #include "plumb/render/render.h"
+#include "plumb/scene/scene.h"
 #include "plumb/settings/render_settings.h"
 #include "scene_file/groups.h"
 #include "scene_file/objects.h"

@@ -2,6 +2,7 @@
 #include "scene_file/build_child.h"
 
 #include "base/parallel.h"
+#include "plumb/model/shape.h"
 #include "scene_file/shared_objects.h"
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "base/parallel.h"
 #include "plumb/base/hash.h"
+#include "plumb/scene/scene.h"
 #include "plumb/scene_file/scene_file.h"
 #include "scene_file/after_load.h"
 #include "scene_file/build.h"
@@ -94,6 +95,8 @@ struct SceneFile::Impl {
           builder(root, context)
     {
         context.vocabulary = words;
+        of_tree = diagnostics;
+        shared_texture_bytes = context.texture_bytes;
         seconds = seconds_since(start);
     }
 
@@ -130,6 +133,8 @@ struct SceneFile::Impl {
     const Element root;
     LoadContext context;
     SceneBuilder builder;
+    Diagnostics of_tree;
+    std::uint64_t shared_texture_bytes = 0;
     double seconds = 0.0; // of reading the tree, until the first load() has told
     std::shared_ptr<const Scene> scene;
     std::vector<InputFile> inputs; // of the scene
@@ -168,7 +173,11 @@ LoadedScene SceneFile::load_with(const MethodSettings& method, const ViewSetting
     // The tree becomes objects.
     const bool is_new = !file.scene || file.scene->options().instruction_set != method.instruction_set;
     SceneContents contents;
-    if (is_new) contents = file.builder.build_contents();
+    if (is_new) {
+        diagnostics = file.of_tree;
+        file.context.texture_bytes = file.shared_texture_bytes;
+        contents = file.builder.build_contents();
+    }
     const Diagnostics of_scene = diagnostics;
     MethodAndView parts = file.builder.build_method_and_view(method, view);
     if (diagnostics.has_errors()) fail(diagnostics, file.expansion.files);

@@ -25,9 +25,9 @@ TEST_CASE("help is another word for --help", "[cli][help]")
     CHECK(out({"help"}) == all);
     CHECK(out({"help", "render"}) == all);
     CHECK(out({"-h"}) == all);
-    for (const VerbRow& row : verb_rows()) {
-        if (row.name.empty()) continue;
-        const std::string verb(row.name);
+    for (const Verb* row : all_verbs()) {
+        if (row->name.empty()) continue;
+        const std::string verb(row->name);
         CAPTURE(verb);
         CHECK_THAT(all, ContainsSubstring("renderer " + verb + " "));
         const std::string manual = out({verb, "--help"});
@@ -62,13 +62,13 @@ TEST_CASE("words that are no verbs are wrong usage", "[cli][help]")
           "error: unknown verb 'comapre'; did you mean 'compare'?\n");
     CHECK(complaint({"tpyes"}) == "error: unknown verb 'tpyes'; did you mean 'types'?\n");
     // Every verb with two letters swapped, alone and with other words.
-    for (const VerbRow& row : verb_rows()) {
-        std::string slip(row.name);
+    for (const Verb* row : all_verbs()) {
+        std::string slip(row->name);
         if (slip.empty()) continue;
         std::swap(slip[0], slip[1]);
         CAPTURE(slip);
         const std::string expected =
-            "error: unknown verb '" + slip + "'; did you mean '" + std::string(row.name) + "'?\n";
+            "error: unknown verb '" + slip + "'; did you mean '" + std::string(row->name) + "'?\n";
         CHECK(complaint({slip}) == expected);
         CHECK(complaint({slip, "scene.xml", "b.exr"}) == expected);
     }

@@ -6,7 +6,6 @@
 
 #include "base/temporary_file.h"
 #include "base/visible_text.h"
-#include "cli/commands.h"
 #include "cli/small_scene.h"
 #include "cli/verbs.h"
 #include "image/image_words.h"
@@ -81,8 +80,7 @@ Outcome run_here(const TempDirectory& directory, const Names& words)
     Outcome outcome;
     std::string problem;
     try {
-        const Options options = parse_options(words);
-        outcome.code = row_of(options.verb).run(options);
+        outcome.code = verb_of(words).parse(words)();
     } catch (const UsageError& error) {
         outcome.code = 2;
         problem = error.what();

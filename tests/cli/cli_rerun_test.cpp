@@ -2,9 +2,10 @@
 
 // Error bars, the ledger of biases, and pictures rendered again from their headers.
 
+#include "base/shell_words.h"
+#include "base/text.h"
 #include "cli/picture_header.h"
 #include "cli/small_scene.h"
-#include "cli/text.h"
 #include "plumb/scene_file/scene_file.h"
 #include "support/catch.h"
 

@@ -6,26 +6,42 @@
 #include "cli/interrupt.h"
 
 #include <atomic>
+#include <chrono>
 #include <csignal>
+#include <thread>
 
 namespace plumb {
 namespace {
 
-std::atomic<int> questions = 0;
+std::atomic<bool> came = false;
+std::jthread soon;
 
 } // namespace
 
 InterruptGuard::InterruptGuard(Interruption)
 {
-    questions = 0;
+    came = false;
+    soon = std::jthread([](const std::stop_token& end) {
+        constexpr int patience = 20;
+        for (int i = 0; i < patience && !end.stop_requested(); ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        came = true;
+    });
 }
 
-InterruptGuard::~InterruptGuard() = default;
+InterruptGuard::~InterruptGuard()
+{
+    soon = {};
+}
+
+const std::atomic<bool>& InterruptGuard::flag()
+{
+    return came;
+}
 
 int InterruptGuard::signal()
 {
-    constexpr int patience = 8;
-    return ++questions > patience ? SIGTERM : 0;
+    return came ? SIGTERM : 0;
 }
 
 } // namespace plumb

@@ -3,7 +3,6 @@
 // Prints the words that an input of a target is made of, as a dictionary for libFuzzer: fuzz_dictionary TARGET. Or the scene
 // of the seeds: fuzz_dictionary --scene.
 
-#include "cli/option_rows.h"
 #include "cli/verbs.h"
 #include "fuzz/small_scene.h"
 #include "plumb/scene_file/scene_file.h"
@@ -73,9 +72,10 @@ void add_scene_words(Words& words)
 
 void add_option_words(Words& words)
 {
-    for (const VerbRow& row : verb_rows())
-        if (!row.name.empty()) words.insert(std::string(row.name));
-    for (const OptionRow& row : option_rows()) words.insert(std::string(row.long_name()));
+    for (const Verb* verb : all_verbs()) {
+        if (!verb->name.empty()) words.insert(std::string(verb->name));
+        for (const OptionHelp& option : verb->options) words.insert(std::string(option.long_name()));
+    }
     for (const char* word :
          {"a.xml", "a.exr", "b.png", "1/2", "3/3", "16x16", "0,0,4,4", "10m", "rmse=0.1", "a=b", "'", "\\",
           "0,0,4,4:0-8", " ", "--", "-", "path,path_mis", "18446744073709551615"})

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "fuzz/fuzz.h"
 
-#include "cli/options.h"
+#include "cli/usage_error.h"
+#include "plumb/base/error.h"
 
 #include <cstdio>
 #include <cstdlib>

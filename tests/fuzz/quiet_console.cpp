@@ -37,6 +37,11 @@ int terminal_columns()
     return 80;
 }
 
+int output_columns()
+{
+    return 80;
+}
+
 void redraw_line(std::string_view) {}
 
 } // namespace plumb

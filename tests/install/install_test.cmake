@@ -27,5 +27,11 @@ check_picture("${directory}/program.exr")
 run("${CMAKE_COMMAND}" -S "${CMAKE_CURRENT_LIST_DIR}" -B "${directory}/consumer" -G Ninja
   "-DCMAKE_PREFIX_PATH=${directory}/moved" "-DCMAKE_CXX_COMPILER=${COMPILER}" "-DCMAKE_CXX_FLAGS=${FLAGS}")
 run("${CMAKE_COMMAND}" --build "${directory}/consumer")
-run("${directory}/consumer/consumer" "${SCENE}" "${directory}/consumer.exr")
-check_picture("${directory}/consumer.exr")
+file(WRITE "${directory}/suite.xml"
+  "<suite size='16x12' spp='4'><render scene='${SCENE}' name='same' reference='same.exr'/></suite>\n")
+run("${directory}/moved/bin/renderer" batch "${directory}/suite.xml" --update --quiet)
+file(MAKE_DIRECTORY "${directory}/out")
+run("${directory}/consumer/consumer" "${SCENE}" "${directory}/suite.xml" "${directory}/out")
+check_picture("${directory}/out/whole.exr")
+check_picture("${directory}/out/suite/same_4.exr")
+check_picture("${directory}/out/suite/report.html")

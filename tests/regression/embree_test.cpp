@@ -3,6 +3,7 @@
 // Whether Embree builds trees that give the same hits, whatever the threads.
 
 #include "base/parallel.h"
+#include "plumb/model/shape.h"
 #include "plumb/scene/scene.h"
 #include "support/catch.h"
 #include "support/params.h"

@@ -6,6 +6,7 @@
 #include "plumb/model/camera.h"
 #include "plumb/model/emitter.h"
 #include "plumb/model/filter.h"
+#include "plumb/model/shape.h"
 #include "plumb/scene/scene.h"
 #include "support/catch.h"
 #include "support/params.h"

@@ -5,6 +5,7 @@
 // (edge_clearance in src/shapes/triangle.h), 2 to 3 % of these rays leave, at every distance: a quarter go to an edge.
 
 #include "base/float_mode.h"
+#include "plumb/model/shape.h"
 #include "support/catch.h"
 #include "support/lamp.h"
 #include "support/little_scene.h"

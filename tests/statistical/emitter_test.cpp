@@ -5,6 +5,7 @@
 // [1] Siegel and Howell, "Thermal Radiation Heat Transfer", configuration factors of a differential element to a
 //     sphere and to a parallel rectangle.
 
+#include "plumb/model/shape.h"
 #include "support/catch.h"
 #include "support/lamp.h"
 #include "support/statistics.h"

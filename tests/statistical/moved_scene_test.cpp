@@ -4,6 +4,8 @@
 // turn lies in a coordinate plane, by compare() with the power to see 1 %.
 
 #include "plumb/compare/compare.h"
+#include "plumb/model/shape.h"
+#include "plumb/scene/scene.h"
 #include "plumb/scene_file/scene_file.h"
 #include "support/catch.h"
 #include "support/run.h"

@@ -8,6 +8,7 @@
 // src/shapes/triangle.h were chosen with this test: in 3e7 rays there are wrong hits with factors of 1 and 1.5 and
 // with 1.5 and 1, none with 2 and 1.5; the factors are 4 and 4.
 
+#include "plumb/model/shape.h"
 #include "plumb/scene/scene.h"
 
 #include "base/float_mode.h"

@@ -3,6 +3,7 @@
 // What every shape of the catalog promises (plumb/model/shape.h), for each sample of its doc block as it is, and mirrored and
 // sheared by toWorld; and inside an instance whose map does that.
 
+#include "plumb/model/shape.h"
 #include "plumb/scene/scene.h"
 
 #include "base/float_mode.h"

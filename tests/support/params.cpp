@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "support/params.h"
+#include "plumb/model/shape.h"
 
 #include <fmt/format.h>
 

@@ -6,6 +6,7 @@
 
 #include "support/placed_lamp.h"
 
+#include "plumb/model/shape.h"
 #include "support/lamp.h"
 
 #include <fmt/format.h>

@@ -3,6 +3,7 @@
 
 // Scenes written in a test: the text goes to a file in a temporary directory and through the real loader.
 
+#include "plumb/scene/scene.h"
 #include "plumb/scene_file/scene_file.h"
 #include "support/temp_directory.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "cli/comparison_text.h"
 #include "plumb/base/error.h"
 #include "plumb/compare/compare.h"
+#include "plumb/reports/comparison_report.h"
 #include "support/catch.h"
 #include "support/noisy_picture.h"
 

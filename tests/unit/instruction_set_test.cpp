@@ -5,8 +5,9 @@
 #include "plumb/scene/instruction_set.h"
 
 #include "base/float_mode.h"
-#include "cli/option_rows.h"
+#include "plumb/model/shape.h"
 #include "plumb/scene/scene.h"
+#include "plumb/settings/render_settings.h"
 #include "support/catch.h"
 #include "support/params.h"
 
@@ -75,17 +76,16 @@ TEST_CASE("an instruction set of another kind of processor is refused, with thos
 
 TEST_CASE("--isa and its help name the instruction sets that there are", "[unit][isa][options]")
 {
-    const auto rows = option_rows();
-    const auto row =
-        std::find_if(rows.begin(), rows.end(), [](const OptionRow& r) { return r.long_name() == "--isa"; });
-    REQUIRE(row != rows.end());
+    const auto* row = find_setting<RenderSettings>("isa");
+    REQUIRE(row);
     for (const std::string_view name : instruction_set_names()) {
-        CHECK_THAT(row->help, ContainsSubstring(std::string(name)));
-        Options options;
-        row->apply(options, "--isa", std::string(name));
-        CHECK(options.settings.method.instruction_set == name);
+        CHECK_THAT(std::string(row->help), ContainsSubstring(std::string(name)));
+        RenderSettings settings;
+        row->set(settings, "--isa", name);
+        CHECK(settings.method.instruction_set == name);
     }
-    CHECK_THAT(row->help, ContainsSubstring("(default " + std::string(default_instruction_set().name) + ")"));
+    CHECK_THAT(std::string(row->help),
+               ContainsSubstring("(default " + std::string(default_instruction_set().name) + ")"));
 }
 
 TEST_CASE("denormal numbers are zero while rays are traced, as operands and as results", "[unit][isa]")

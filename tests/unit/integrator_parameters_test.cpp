@@ -7,6 +7,7 @@
 #include "support/lamp.h"
 
 #include "plumb/base/error.h"
+#include "plumb/model/shape.h"
 
 using namespace plumb;
 using namespace plumb::test;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What the command line changes of a scene.
 
+#include "plumb/model/shape.h"
 #include "plumb/scene_file/scene_file.h"
 #include "support/catch.h"
 #include "support/scene_text.h"

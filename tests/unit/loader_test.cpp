@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "base/memory.h"
+#include "plumb/model/shape.h"
 #include "plumb/model/surface.h"
 #include "plumb/scene_file/scene_file.h"
 #include "support/catch.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "plumb/base/error.h"
+#include "plumb/model/shape.h"
 #include "plumb/shapes/mesh.h"
 #include "shapes/obj/obj_number.h"
 #include "shapes/obj/obj_polygon.h"

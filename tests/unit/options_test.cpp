@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "cli/option_rows.h"
-#include "cli/options.h"
+#include "cli/verb_file.h"
 #include "cli/verbs.h"
+#include "settings/options_text.h"
 #include "support/catch.h"
 
 #include <algorithm>
@@ -13,18 +13,58 @@ using namespace plumb;
 namespace {
 
 // Words separated by spaces; none of these holds one.
-Options parse(const std::string& line)
+std::vector<std::string> split(const std::string& line)
 {
     std::istringstream stream(line);
     std::vector<std::string> words;
     for (std::string word; stream >> word;) words.push_back(word);
-    return parse_options(words);
+    return words;
+}
+
+// A verb with everything that several verbs have.
+struct Options : VerbOptions {
+    RenderSettings settings;
+    CompareSettings compare;
+    std::vector<std::string> outputs;
+    std::string json;
+    std::string checkpoint;
+    int threads = 0;
+};
+
+OptionTable<Options> table()
+{
+    OptionTable<Options> all =
+        join<Options>({outputs_option<Options>(), json_option<Options>(), checkpoint_option<Options>(),
+                       threads_option<Options>(), quiet_option<Options>(), verbose_option<Options>()});
+    for (const auto& row : setting_rows<RenderSettings>())
+        all.push_back(setting_options<Options>(Topic::picture, &Options::settings, {row.name}).front());
+    for (const auto& row : setting_rows<CompareSettings>())
+        all.push_back(setting_options<Options>(Topic::verdict, &Options::compare, {row.name}).front());
+    return all;
+}
+
+Options parse_words(const std::vector<std::string>& words)
+{
+    return parse_into<Options>({"", "SCENE", "", "scene file", 1, 1}, table(), nullptr, words);
+}
+
+Options parse(const std::string& line)
+{
+    return parse_words(split(line));
+}
+
+// The name of the verb; the words are right for it.
+std::string_view verb_name(const std::string& line)
+{
+    const Verb& verb = verb_of(split(line));
+    verb.parse(split(line));
+    return verb.name;
 }
 
 std::string usage_error(const std::vector<std::string>& words)
 {
     try {
-        parse_options(words);
+        verb_of(words).parse(words);
     } catch (const UsageError& error) {
         return error.what();
     }
@@ -33,10 +73,7 @@ std::string usage_error(const std::vector<std::string>& words)
 
 std::string usage_error(const std::string& line)
 {
-    std::istringstream stream(line);
-    std::vector<std::string> words;
-    for (std::string word; stream >> word;) words.push_back(word);
-    return usage_error(words);
+    return usage_error(split(line));
 }
 
 } // namespace
@@ -44,8 +81,8 @@ std::string usage_error(const std::string& line)
 TEST_CASE("a scene alone leaves everything to the scene", "[unit][options]")
 {
     const Options options = parse("cbox.xml");
-    CHECK(options.verb == Verb::render);
-    CHECK(options.subject == "cbox.xml");
+    CHECK(verb_name("cbox.xml").empty());
+    CHECK(options.subject() == "cbox.xml");
     CHECK(options.outputs.empty());
     CHECK(options.json.empty());
     CHECK_FALSE(options.quiet);
@@ -61,7 +98,7 @@ TEST_CASE("every option of a rendering is understood", "[unit][options]")
         "--seed 18446744073709551615 --threads 3 --size 65535x1 --crop 1,2,3,4 -D a=1 -Db=2=3 --define c= "
         "--dialect eth --emitters absorb --mirror off --envmap-scale 2.5 --isa sse4.2 --exposure -1.5 "
         "--lenient --quiet --json=out.json scene.xml");
-    CHECK(options.subject == "scene.xml");
+    CHECK(options.subject() == "scene.xml");
     CHECK(options.outputs == std::vector<std::string>{"a.exr", "b.png", "c.jpg"});
     CHECK(options.settings.samples.per_pixel == 67108864u);
     CHECK(options.settings.method.integrator == "path_mis");
@@ -91,26 +128,17 @@ TEST_CASE("words with two meanings are read as one", "[unit][options]")
     CHECK(parse("s.xml --json -").json == "-");
     CHECK(parse("s.xml --exposure +2").settings.output.exposure == 2.f);
     CHECK(parse("s.xml -t 5").threads == 5);
-    CHECK(parse("./types").verb == Verb::render);
-    CHECK(parse("./types").subject == "./types");
-    CHECK(parse("-- -s.xml").subject == "-s.xml");
+    CHECK(verb_name("./types").empty());
+    CHECK(parse("./types").subject() == "./types");
+    CHECK(parse("-- -s.xml").subject() == "-s.xml");
 }
 
 TEST_CASE("verbs come first and take their own options", "[unit][options]")
 {
-    CHECK(parse("types").verb == Verb::types);
-    CHECK(parse("types").subject.empty());
-    CHECK(parse("types diffuse").subject == "diffuse");
-    CHECK(parse("info out.exr").verb == Verb::info);
-    CHECK(parse("info out.exr").subject == "out.exr");
-
-    const Options options = parse("replay s.xml --pixel 3,4 --sample 5 --seed 6 --mirror on");
-    CHECK(options.verb == Verb::replay);
-    CHECK(options.subject == "s.xml");
-    CHECK(options.replay.pixel == Vec2i(3, 4));
-    CHECK(options.replay.sample == 5);
-    CHECK(options.settings.samples.seed == 6);
-    CHECK(options.settings.scene.mirrored_view == true);
+    CHECK(verb_name("types") == "types");
+    CHECK(verb_name("types diffuse") == "types");
+    CHECK(verb_name("info out.exr") == "info");
+    CHECK(verb_name("replay s.xml --pixel 3,4 --sample 5 --seed 6 --mirror on") == "replay");
 
     CHECK(usage_error("s.xml types") == "the verb 'types' must come first");
     CHECK(usage_error("types a b") == "unexpected argument 'b' after 'a'");
@@ -122,16 +150,9 @@ TEST_CASE("verbs come first and take their own options", "[unit][options]")
     CHECK(usage_error("s.xml --pixel 1,1") == "option '--pixel' cannot be used with rendering");
     CHECK(usage_error("info a.exr --spp 4") == "option '--spp' cannot be used with info");
 
-    const Options test = parse("test a.xml --seed 3 b.xml -t 2 --dialect epfl --json r.json --quiet c.xml");
-    CHECK(test.verb == Verb::test);
-    CHECK(test.subjects == std::vector<std::string>{"a.xml", "b.xml", "c.xml"});
-    CHECK(test.settings.samples.seed == 3);
-    CHECK(test.threads == 2);
-    CHECK(test.settings.scene.dialect == DialectName::epfl);
-    CHECK(test.json == "r.json");
-    CHECK(test.quiet);
-    CHECK(parse("test ./test").subjects == std::vector<std::string>{"./test"});
-    CHECK(parse("test -- -a.xml b.xml").subjects == std::vector<std::string>{"-a.xml", "b.xml"});
+    CHECK(verb_name("test a.xml --seed 3 b.xml -t 2 --dialect epfl --json r.json --quiet c.xml") == "test");
+    CHECK(verb_name("test ./test") == "test");
+    CHECK(verb_name("test -- -a.xml b.xml") == "test");
     CHECK(usage_error("test") == "no test file given; 'renderer --help' shows how");
     CHECK(usage_error("test a.xml --spp 4") == "option '--spp' cannot be used with test");
     CHECK(usage_error("a.xml test") == "the verb 'test' must come first");
@@ -142,15 +163,10 @@ TEST_CASE("verbs come first and take their own options", "[unit][options]")
 
 TEST_CASE("compare takes two images", "[unit][options]")
 {
-    const Options options =
-        parse("compare a.exr b.exr --max rmse=0.25,flip=0.5 --max psnr=30 --significance 0.05 "
-              "--exact B --fail-percent 2 --diff d.png --diff-of flip --no-verdict --flip ldr");
-    CHECK(options.verb == Verb::compare);
-    CHECK(options.subject == "a.exr");
-    CHECK(options.subjects == std::vector<std::string>{"a.exr", "b.exr"});
-    CHECK(options.compare.difference == "d.png");
-    CHECK(options.compare.difference_is_flip);
-    const CompareSettings& how = options.compare.how;
+    CHECK(verb_name("compare a.exr b.exr --diff d.png --diff-of flip") == "compare");
+    const CompareSettings how = parse("a.exr --max rmse=0.25,flip=0.5 --max psnr=30 --significance 0.05 "
+                                      "--exact B --fail-percent 2 --no-verdict --flip ldr")
+                                    .compare;
     CHECK(how.significance == 0.05);
     CHECK(how.exact == Side::b);
     CHECK(how.fail_percent == 2.0);
@@ -177,9 +193,8 @@ TEST_CASE("compare takes two images", "[unit][options]")
 
 TEST_CASE("what replay needs is kept, quoted for a shell", "[unit][options]")
 {
-    const Options options =
-        parse_options({"s.xml", "-o", "a.exr", "-D", "n=a b'c", "--quiet", "--seed", "7", "--threads", "2",
-                       "--lenient", "--crop", "0,0,1,1", "--isa", "avx"});
+    const Options options = parse_words({"s.xml", "-o", "a.exr", "-D", "n=a b'c", "--quiet", "--seed", "7",
+                                         "--threads", "2", "--lenient", "--crop", "0,0,1,1", "--isa", "avx"});
     CHECK(replay_options_text(options.settings) == " --seed 7 --define 'n=a b'\\''c' --lenient --isa avx");
     CHECK(options_text(options.settings) ==
           " --seed 7 --crop 0,0,1,1 --define 'n=a b'\\''c' --lenient --isa avx");
@@ -189,22 +204,19 @@ TEST_CASE("what replay needs is kept, quoted for a shell", "[unit][options]")
 
 TEST_CASE("help and version need no scene", "[unit][options]")
 {
-    CHECK(parse("--help").help);
-    CHECK(parse("-h").help);
-    CHECK(parse("replay --help").help);
-    CHECK(parse("--version").version);
+    for (const char* line : {"--help", "-h", "replay --help", "compare -h", "--version"})
+        CHECK(usage_error(line) == "no error");
 }
 
 TEST_CASE("--help names every option of its verb", "[unit][options]")
 {
-    for (const VerbRow& row_of_verb : verb_rows()) {
-        const Verb verb = row_of_verb.verb;
-        const std::string help = help_text(verb);
-        for (const OptionRow& row : option_rows()) {
-            INFO(row.names);
-            const std::string line = std::string(row.long_name()) + " " + row.value;
+    for (const Verb* verb : all_verbs()) {
+        const std::string help = help_text(*verb);
+        for (const OptionHelp& option : verb->options) {
+            INFO(option.names);
+            const std::string line = std::string(option.long_name()) + " " + option.value;
             CHECK((help.find(", " + line) != std::string::npos ||
-                   help.find("\n      " + line) != std::string::npos) == row.goes_with(verb));
+                   help.find("\n      " + line) != std::string::npos));
         }
         std::istringstream lines(help);
         for (std::string line; std::getline(lines, line);) CHECK(line.size() <= 100);
@@ -290,16 +302,17 @@ TEST_CASE("words of a choice are checked", "[unit][options]")
 
 TEST_CASE("every setting of a picture is an option of a rendering", "[unit][options]")
 {
+    const auto has = [](std::string_view verb, std::string_view setting) {
+        const auto& options = find_verb(verb)->options;
+        return std::any_of(options.begin(), options.end(), [&](const OptionHelp& option) {
+            return option.long_name() == "--" + std::string(setting);
+        });
+    };
     for (const SettingRow<RenderSettings>& setting : setting_rows<RenderSettings>()) {
         INFO(setting.name);
-        const auto rows = option_rows();
-        const auto row = std::find_if(rows.begin(), rows.end(), [&](const OptionRow& option) {
-            return option.long_name() == "--" + std::string(setting.name);
-        });
-        REQUIRE(row != rows.end());
-        CHECK(row->goes_with(Verb::render));
+        CHECK(has("render", setting.name));
         // A sample is replayed with all that changes it.
-        if (setting.effect == Effect::samples || setting.name == "spp") CHECK(row->goes_with(Verb::replay));
+        if (setting.effect == Effect::samples || setting.name == "spp") CHECK(has("replay", setting.name));
         // Only the command line names files.
         CHECK(setting.value.find("FILE") == setting.value.npos);
         CHECK(setting.value.find("DIR") == setting.value.npos);

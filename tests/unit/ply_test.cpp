@@ -139,7 +139,7 @@ TEST_CASE("attributes of a mesh at its points", "[unit][ply]")
                         "0 0 0 0 0 0 1 1\n2 0 0 1 0 0 1 1\n0 2 0 0 1 0 1 1\n0 0 9 0 0 9 1 1\n3 0 1 2 0.25\n");
     const auto mesh = ParamsBuilder("shape", "ply").string("filename", file.string()).build<PlyMesh, Shape>();
     CHECK(mesh->attribute_names() == std::vector<std::string>{"vertex_c", "face_w"});
-    const SurfacePoint at = mesh->surface_at({Vec3f(0.5f, 1.f, 3.f), Vec3f(0, 0, -1)}, 0);
+    const SurfacePoint at = mesh->surface_at(Ray{Vec3f(0.5f, 1.f, 3.f), Vec3f(0, 0, -1)}, 0);
     const auto color = mesh->attribute("vertex_c", at);
     REQUIRE(color);
     CHECK(color->r == Approx(0.25));

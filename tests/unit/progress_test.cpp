@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include "base/shell_words.h"
+#include "base/text.h"
+#include "base/visible_text.h"
 #include "cli/progress.h"
-#include "cli/text.h"
+#include "render/sample_text.h"
 #include "support/catch.h"
 
 #include <limits>

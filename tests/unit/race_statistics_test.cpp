@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-#include "cli/race_statistics.h"
+#include "plumb/experiments/agree.h"
 
 #include "plumb/statistics/mean_and_variance.h"
 #include "plumb/statistics/statistics.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "cli/json.h"
-#include "cli/report.h"
-#include "cli/text_file.h"
+#include "base/json.h"
+#include "base/text_file.h"
+#include "plumb/reports/render_report.h"
 #include "support/catch.h"
 #include "support/temp_directory.h"
 

@@ -2,6 +2,7 @@
 
 // BSDFs inside BSDFs, and <ref>.
 
+#include "plumb/model/shape.h"
 #include "plumb/scene/scene.h"
 #include "support/catch.h"
 #include "support/scene_text.h"

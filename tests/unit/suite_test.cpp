@@ -2,10 +2,9 @@
 
 // Suites: what their entries are, and the exact text of what is wrong with them.
 
-#include "cli/batch/picture_data.h"
-#include "cli/batch/plan.h"
-#include "cli/batch/result.h"
+#include "plumb/reports/suite_report.h"
 #include "plumb/suite_file/suite.h"
+#include "reports/picture_data.h"
 #include "support/catch.h"
 #include "support/temp_directory.h"
 
@@ -18,17 +17,17 @@ namespace {
 using Texts = std::vector<std::string>;
 
 struct SuiteDirectory : TempDirectory {
-    std::vector<BatchJob> plan(const std::string& xml,
+    std::vector<SuiteJob> plan(const std::string& xml,
                                const std::map<std::string, std::string>& definitions = {}) const
     {
-        return plan_batch(write("suite.xml", xml).string(), definitions);
+        return plan_suite(write("suite.xml", xml).string(), definitions);
     }
 
     // "name: command", one for each entry, without this directory.
     Texts commands(const std::string& xml, const std::map<std::string, std::string>& definitions = {}) const
     {
         Texts texts;
-        for (const BatchJob& job : plan(xml, definitions))
+        for (const SuiteJob& job : plan(xml, definitions))
             texts.push_back(inside(job.entry.title() + ": " + command_text(job.entry.scene, job.picture)));
         return texts;
     }
@@ -97,7 +96,7 @@ TEST_CASE("what a group says holds inside it", "[unit][suite]")
 TEST_CASE("references of a suite", "[unit][suite]")
 {
     const SuiteDirectory directory;
-    const std::vector<BatchJob> jobs = directory.plan(
+    const std::vector<SuiteJob> jobs = directory.plan(
         "<suite spp='4' seed='1' reference='ref/*.exr' reference-spp='64' reference-seed='2' size='8x8'>"
         "<group name='g'><render scene='a.xml' exact='B' max='rmse=0.1,flip=1' no-verdict='true'/></group>"
         "<render scene='b.xml' reference='c.exr' reference-spp=''/>"
@@ -196,7 +195,7 @@ TEST_CASE("what is wrong with a suite", "[unit][suite]")
         CAPTURE(xml);
         CHECK(directory.complaint(xml) == expected);
     }
-    CHECK_THROWS_WITH(plan_batch((directory / "none.xml").string(), {}),
+    CHECK_THROWS_WITH(plan_suite((directory / "none.xml").string(), {}),
                       "file '" + (directory / "none.xml").string() + "' does not exist");
 }
 
@@ -271,12 +270,12 @@ TEST_CASE("colours with a shared exponent keep their value", "[unit][suite]")
 
 TEST_CASE("the exit code of a batch is its worst verdict's", "[unit][suite]")
 {
-    const auto code = [](std::initializer_list<BatchVerdict> verdicts) {
-        BatchRun run;
-        for (const BatchVerdict verdict : verdicts) run.results.emplace_back().verdict = verdict;
-        return run.exit_code();
+    const auto code = [](std::initializer_list<SuiteVerdict> verdicts) {
+        SuiteRun run;
+        for (const SuiteVerdict verdict : verdicts) run.results.emplace_back().verdict = verdict;
+        return exit_code_of(run);
     };
-    using enum BatchVerdict;
+    using enum SuiteVerdict;
     CHECK(code({passes, rendered, made}) == 0);
     CHECK(code({passes, undecided, passes}) == 4);
     CHECK(code({undecided, differs, passes, not_run}) == 3);

@@ -3,9 +3,9 @@
 // Files that appear whole: under which names, and what of others they leave alone.
 
 #include "base/temporary_file.h"
-#include "cli/options.h"
+#include "base/text_file.h"
 #include "cli/outputs.h"
-#include "cli/text_file.h"
+#include "cli/usage_error.h"
 #include "plumb/base/error.h"
 #include "plumb/image/image.h"
 #include "support/catch.h"

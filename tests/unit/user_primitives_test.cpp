@@ -2,6 +2,7 @@
 
 // A shape of many primitives that Embree does not know, added by one call.
 
+#include "plumb/model/shape.h"
 #include "plumb/scene/scene.h"
 #include "shapes/intersection.h"
 #include "support/catch.h"

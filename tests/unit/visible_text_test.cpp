@@ -2,9 +2,11 @@
 
 // Names and texts of others never steer a terminal, and never break a report.
 
-#include "cli/batch/result.h"
-#include "cli/text.h"
+#include "base/shell_words.h"
+#include "base/text.h"
+#include "base/visible_text.h"
 #include "plumb/base/error.h"
+#include "plumb/reports/suite_report.h"
 #include "support/catch.h"
 
 #include <pugixml.hpp>
@@ -65,13 +67,13 @@ bool is_xml_text(std::string_view text)
     return true;
 }
 
-BatchRun run_with(const std::string& name)
+SuiteRun run_with(const std::string& name)
 {
-    BatchRun run;
+    SuiteRun run;
     run.suite = name + ".xml";
     run.directory = name;
-    for (const BatchVerdict verdict : {BatchVerdict::error, BatchVerdict::rendered, BatchVerdict::not_run}) {
-        BatchResult result;
+    for (const SuiteVerdict verdict : {SuiteVerdict::error, SuiteVerdict::rendered, SuiteVerdict::not_run}) {
+        SuiteResult result;
         result.title = result.scene = result.reference = name;
         result.command = "renderer " + shell_quote(name);
         result.problem = "error: there is no '" + visible_text(name) + "'\nof any kind";
@@ -137,8 +139,8 @@ TEST_CASE("reports are well-formed for any name, and steer nothing", "[unit][bat
 {
     for (const std::string& name : hostile) {
         INFO(visible_text(name));
-        const BatchRun run = run_with(name);
-        const std::string junit = batch_junit(run);
+        const SuiteRun run = run_with(name);
+        const std::string junit = suite_junit(run);
         CHECK(is_xml_text(junit));
         CHECK(is_harmless(junit));
         pugi::xml_document document;
@@ -147,12 +149,12 @@ TEST_CASE("reports are well-formed for any name, and steer nothing", "[unit][bat
         CHECK(std::distance(suite.begin(), suite.end()) == 3);
         if (is_xml_text(name)) CHECK(suite.first_child().attribute("name").value() == name);
 
-        CHECK(is_harmless(batch_json(run)));
-        CHECK(is_harmless(batch_markdown(run)));
-        const std::string markdown = batch_markdown(run);
+        CHECK(is_harmless(suite_json(run)));
+        CHECK(is_harmless(suite_markdown(run)));
+        const std::string markdown = suite_markdown(run);
         CHECK(std::count(markdown.begin(), markdown.end(), '\n') == 9); // one line a picture
-        CHECK(is_harmless(batch_html(run)));
-        for (const BatchResult& result : run.results) {
+        CHECK(is_harmless(suite_html(run, SuitePictures(1))));
+        for (const SuiteResult& result : run.results) {
             const std::string line = result_line(result, 10);
             CHECK(is_harmless(line));
             CHECK(std::count(line.begin(), line.end(), '\n') <= 3);

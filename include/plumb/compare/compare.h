@@ -21,6 +21,9 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace plumb {
 
@@ -110,7 +113,18 @@ struct Comparison {
     CompareOutcome outcome = CompareOutcome::undecided;
 };
 
+// A picture and what is known of it besides.
+struct Estimate {
+    std::string name;
+    Image image;
+    std::optional<double> samples_per_pixel; // independent ones, which its variances are of
+    std::string estimator; // equal: the samples of both have one distribution; empty: unknown
+    std::string seed;      // of its random numbers; empty: unknown
+};
+
 // Throws Error if they cannot be compared: different sizes, missing channels, an unknown metric.
+Comparison compare(const Estimate& a, const Estimate& b, const CompareSettings& settings = {});
+// Of images whose headers say what is known of them.
 Comparison compare(const Image& a, const Image& b, const CompareSettings& settings = {});
 
 // The value of a metric by the name that thresholds use. Throws Error if there is none of that name.

@@ -8,7 +8,7 @@
 // normals go through the inverse transpose and are never flipped.
 
 #include "plumb/math/transform.h"
-#include "plumb/model/shape.h"
+#include "plumb/model/surface.h"
 
 namespace plumb {
 

@@ -49,12 +49,6 @@ struct alignas(16) ShapeSample {
     Vec2f uv;
 };
 
-// How the point of a surface moves with its uv coordinates. World space; neither of unit length nor perpendicular.
-struct Tangents {
-    Vec3f dp_du{0.f};
-    Vec3f dp_dv{0.f};
-};
-
 struct Ball {
     Vec3f center;
     float radius = 0.f;

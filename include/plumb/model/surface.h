@@ -37,4 +37,10 @@ struct alignas(16) SurfacePoint {
     }
 };
 
+// How the point of a surface moves with its uv coordinates. World space; neither of unit length nor perpendicular.
+struct Tangents {
+    Vec3f dp_du{0.f};
+    Vec3f dp_dv{0.f};
+};
+
 } // namespace plumb

@@ -9,7 +9,8 @@
 #include "plumb/model/sampler.h"
 #include "plumb/render/film.h"
 #include "plumb/render/sample_set.h"
-#include "plumb/scene/tracer.h"
+#include "plumb/scene/path_event.h"
+#include "plumb/scene/ray_counts.h"
 
 #include <functional>
 #include <memory>
@@ -18,6 +19,8 @@
 #include <vector>
 
 namespace plumb {
+
+class Scene;
 
 // Everything that a picture depends on, but for the seed and the number of samples. Cheap to copy; several jobs may share
 // what they have in common.

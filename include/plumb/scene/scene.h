@@ -6,19 +6,22 @@
 #include "plumb/model/bsdf.h"
 #include "plumb/model/emitter.h"
 #include "plumb/model/instance_map.h"
-#include "plumb/model/shape.h"
 #include "plumb/scene/instruction_set.h"
 #include "plumb/scene/light_tree.h"
 
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace plumb {
 
+class Shape;
+
 // A shape, what it is made of, and the light it gives. bsdf is never null, and other objects may have the same one; emitter
 // may be null.
 struct SceneObject {
-    std::unique_ptr<Shape> shape;
+    std::shared_ptr<Shape> shape;
     std::shared_ptr<const Bsdf> bsdf;
     std::unique_ptr<Emitter> emitter;
     std::string name;     // "mesh 'obj' (cbox.xml:12)", for people

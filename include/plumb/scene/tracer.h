@@ -4,35 +4,16 @@
 // One thread's view of the scene: it traces rays, counts them by kind, and on demand notes what a camera sample sees first and,
 // for `renderer replay`, keeps a log.
 
+#include "plumb/scene/path_event.h"
+#include "plumb/scene/ray_counts.h"
 #include "plumb/scene/scene.h"
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace plumb {
-
-enum class RayKind { camera, bounce, shadow };
-
-struct RayCounts {
-    std::uint64_t camera = 0;
-    std::uint64_t bounce = 0;
-    std::uint64_t shadow = 0;
-
-    std::uint64_t total() const { return camera + bounce + shadow; }
-    std::uint64_t& of(RayKind kind)
-    {
-        return kind == RayKind::camera ? camera : kind == RayKind::bounce ? bounce : shadow;
-    }
-    RayCounts& operator+=(const RayCounts& other);
-};
-
-// What happened along one path, in order, for people to read.
-struct PathEvent {
-    enum class Kind { ray, hit, escape, emission, direct, scatter, roulette, end };
-    Kind kind;
-    std::string text;
-};
 
 // A surface that a camera sample saw, and how.
 struct SeenSurface {

@@ -2,7 +2,7 @@
 
 // The header of a picture, as `renderer info` prints it and `renderer rerun` obeys it.
 
-#include "cli/commands.h"
+#include "cli/verbs.h"
 #include "fuzz/fuzz.h"
 #include "fuzz/small_scene.h"
 
@@ -14,12 +14,12 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
     static const auto scene = write_file(small_scene_name, small_scene); // what a header may name
     static_cast<void>(scene);
     const std::string picture = write_file("picture.exr", text_of(data, size)).string();
-    allow_our_errors([&] { info_command(picture); });
-    RerunRequest again;
-    again.image = picture;
-    again.outputs = {(directory() / "again.exr").string()};
-    again.threads = 1;
-    allow_our_errors([&] { rerun_command(again); });
-    std::filesystem::remove(again.outputs.front());
+    const auto run = [](const std::vector<std::string>& words) {
+        allow_our_errors([&] { verb_of(words).parse(words)(); });
+    };
+    run({"info", picture});
+    const std::string again = (directory() / "again.exr").string();
+    run({"rerun", picture, "-o", again, "--threads", "1"});
+    std::filesystem::remove(again);
     return 0;
 }

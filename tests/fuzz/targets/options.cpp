@@ -2,15 +2,30 @@
 
 // The command line, a word a line; quoting for shells; sets of samples as text.
 
-#include "cli/options.h"
-#include "cli/text.h"
+#include "base/shell_words.h"
+#include "base/visible_text.h"
+#include "cli/verb_file.h"
+#include "cli/verbs.h"
 #include "fuzz/fuzz.h"
+#include "plumb/render/sample_set.h"
 #include "plumb/settings/settings_header.h"
 
 using namespace plumb;
 using namespace plumb::fuzz;
 
 namespace {
+
+struct Options : VerbOptions {
+    RenderSettings settings;
+};
+
+OptionTable<Options> table()
+{
+    OptionTable<Options> all;
+    for (const auto& row : setting_rows<RenderSettings>())
+        all.push_back(setting_options<Options>(Topic::picture, &Options::settings, {row.name}).front());
+    return all;
+}
 
 std::vector<std::string> lines(std::string_view text)
 {
@@ -62,9 +77,13 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
     if (text_of(data, size).find('\0') != std::string_view::npos) return 0; // no word has one
     const std::vector<std::string> words = lines(text_of(data, size));
     allow_our_errors([&] {
-        const Options options = parse_options(words);
+        verb_of(words).parse(words);
+        expect_printable(help_text(verb_of(words)));
+    });
+    allow_our_errors([&] {
+        const Options options =
+            parse_into<Options>({"", "", "", "scene file", 1, 1}, table(), nullptr, words);
         expect(shell_split(options.typed) == words, "what was given is said to be other words");
-        expect_printable(help_text(options.verb));
         expect(settings_of_header(settings_header(options.settings)) == options.settings ||
                    valid_utf8(words_text(words)) != words_text(words),
                "settings in a header are others");

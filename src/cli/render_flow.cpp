@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+#include "cli/render_flow.h"
+
+#include "base/text.h"
+#include "cli/console.h"
+#include "cli/interrupt.h"
+#include "cli/outputs.h"
+#include "cli/progress.h"
+#include "plumb/reports/render_report.h"
+#include "rendering/checkpoint.h"
+#include "rendering/output_files.h"
+#include "reports/exit_codes.h"
+
+#include <chrono>
+#include <fmt/format.h>
+#include <future>
+
+namespace plumb {
+
+namespace {
+
+class Stopwatch {
+public:
+    double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+private:
+    using Clock = std::chrono::steady_clock;
+    Clock::time_point start_ = Clock::now();
+};
+
+std::vector<std::filesystem::path> paths_of(const std::vector<InputFile>& inputs)
+{
+    std::vector<std::filesystem::path> paths;
+    for (const InputFile& input : inputs) paths.push_back(input.path);
+    return paths;
+}
+
+std::string checkpoint_of(const RenderFlow& flow)
+{
+    return flow.session.checkpoint.file.string();
+}
+
+std::vector<std::string> default_outputs(const RenderTask& task)
+{
+    const std::string stem = std::filesystem::path(task.file).stem().string();
+    const bool fixed =
+        task.settings.samples.per_pixel || !(task.settings.stop.seconds || task.settings.stop.relative_error);
+    const std::string name = fixed ? fmt::format("{}_{}", stem, task.options.samples_per_pixel) : stem;
+    return {name + ".exr", name + ".png"};
+}
+
+// A part is no picture yet: its output is the checkpoint.
+std::vector<std::string> images_of(const RenderFlow& flow, const RenderTask& task)
+{
+    if (flow.session.part) return {};
+    return flow.outputs.empty() ? default_outputs(task) : flow.outputs;
+}
+
+std::vector<std::string> with_checkpoint(std::vector<std::string> images, const RenderFlow& flow)
+{
+    if (const std::string file = checkpoint_of(flow); !file.empty()) images.push_back(file);
+    return images;
+}
+
+// All that a run writes to.
+std::vector<std::string> files_written(const std::vector<std::string>& images, const RenderFlow& flow)
+{
+    std::vector<std::string> files = with_checkpoint(images, flow);
+    if (const std::string file = checkpoint_of(flow); !file.empty())
+        files.push_back(previous_generation(file).string());
+    return files;
+}
+
+// What to do after a signal.
+void log_interruption(const RenderFlow& flow, const SampleSet::Range& samples)
+{
+    const bool can_go_on = !checkpoint_of(flow).empty();
+    print_log(fmt::format("interrupted with {} to {} samples per pixel; {}", samples.least, samples.most,
+                          can_go_on ? "to resume:" : "cannot be resumed without --checkpoint"));
+    if (can_go_on) print_log("    renderer" + flow.typed + (flow.resume ? "" : " --resume"));
+}
+
+void log_message(const Diagnostic& message, bool quiet)
+{
+    if (message.severity == Severity::note) {
+        if (!quiet) print_log(message.message);
+    } else {
+        print_log(message);
+    }
+}
+
+} // namespace
+
+void check_flow(const RenderFlow& flow)
+{
+    // Hours of work are not to be written over.
+    if (const std::string file = checkpoint_of(flow); !file.empty() && !flow.resume)
+        if (const auto there = generation_there(file))
+            throw Error(fmt::format("'{}' already exists; pass --resume to continue it, or remove it",
+                                    there->string()));
+    check_outputs(files_written(flow.session.part ? std::vector<std::string>() : flow.outputs, flow),
+                  flow.json);
+}
+
+int run_flow(const RenderTask& task, const RenderFlow& flow)
+{
+    const Stopwatch since_loaded;
+    const std::vector<std::string> images = images_of(flow, task);
+    const std::vector<std::string> written = files_written(images, flow);
+    if (flow.outputs.empty()) check_outputs(written, flow.json);
+    KeptFiles(paths_of(task.scene.inputs))
+        .refuse(with_json(written, flow.json), "the scene reads this file; write to another");
+
+    const bool has_checkpoint = !checkpoint_of(flow).empty();
+    std::optional<InterruptGuard> guard(std::in_place,
+                                        has_checkpoint ? Interruption::by_manager : Interruption::by_hand);
+    std::optional<ProgressDisplay> display;
+    RenderSession session(task, flow.session,
+                          {.progress = [&](const Progress& progress) { display->show(progress); },
+                           .message = [&](const Diagnostic& message) { log_message(message, flow.quiet); },
+                           .stop = &InterruptGuard::flag()});
+    if (flow.resume) session.resume();
+    display.emplace(flow.quiet);
+    const int signal = session.run() == StopReason::interrupted ? InterruptGuard::signal() : 0;
+    display.reset();
+    if (!has_checkpoint) guard.reset(); // else until it is written
+
+    // Whoever sends a signal does not wait long: checkpoint and pictures are written at the same time.
+    const Stopwatch writing;
+    // In another thread if there is one to be had.
+    std::future<void> saving = std::async(std::launch::async | std::launch::deferred, [&] {
+        if (has_checkpoint) session.save();
+    });
+    Report report = make_report(session, session.evidence());
+    report.outputs = with_checkpoint(images, flow);
+    std::vector<std::string> problems;
+    try {
+        if (!images.empty())
+            write_pictures(images, session.picture(report.evidence), task.settings.output.exposure,
+                           packing_of(report.evidence), flow.session.checkpoint.file.parent_path());
+    } catch (const Error& error) {
+        problems.emplace_back(error.what());
+    }
+    try {
+        saving.get();
+    } catch (const Error& error) {
+        problems.emplace(problems.begin(), error.what());
+    }
+    if (!problems.empty()) throw Error(list_text(problems));
+
+    report.write_seconds = writing.seconds();
+    report.total_seconds = task.scene.parse_seconds + task.scene.build_seconds + since_loaded.seconds();
+    note_machine(report);
+    if (!flow.json.empty()) write_json(flow.json, report_json(report));
+    if (!flow.quiet)
+        for (const std::string& line : summary_of(report, task)) print_log(line);
+    if (signal == 0) return exit_code::done;
+    log_interruption(flow, session.state().taken.samples_per_pixel(session.state().film.window()));
+    return exit_code::signal + signal;
+}
+
+} // namespace plumb

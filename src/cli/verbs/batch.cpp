@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+#include "cli/console.h"
+#include "cli/interrupt.h"
+#include "cli/progress.h"
+#include "cli/verb_file.h"
+
+#include "base/visible_text.h"
+#include "plumb/reports/suite_report.h"
+
+#include <algorithm>
+
+namespace plumb {
+
+namespace {
+
+struct Options : VerbOptions {
+    RenderSettings settings; // of them, definitions: of $name in the suite
+    std::string directory;   // for pictures and reports; empty: batch/<suite>
+    bool update = false;
+    std::string filter;
+    bool fail_fast = false;
+    bool force = false;
+    int threads = 0;
+};
+
+// The progress of each picture, on a terminal: no lines between those of the table.
+class Display {
+public:
+    explicit Display(bool quiet) : quiet_(quiet || !log_is_terminal()) {}
+    void show(const Progress& progress)
+    {
+        if (!shown_) shown_.emplace(quiet_);
+        shown_->show(progress);
+    }
+    void end() { shown_.reset(); }
+
+private:
+    bool quiet_;
+    std::optional<ProgressDisplay> shown_;
+};
+
+SuiteRun run_and_tell(const Options& options, const std::vector<SuiteJob>& jobs, const SuiteOptions& how,
+                      SuitePictures& pictures)
+{
+    std::size_t width = 0;
+    for (const SuiteJob& job : chosen_jobs(options.subject(), jobs, how))
+        width = std::max(width, (how.update ? job.entry.reference.string() : job.entry.title()).size());
+    Display display(options.quiet);
+    const InterruptGuard guard(Interruption::by_hand);
+    const auto tell = [&](const SuiteResult& result, const SuiteImages& images) {
+        display.end();
+        pictures.add(result, images);
+        if (!options.quiet || result.verdict == SuiteVerdict::error) print_output(result_line(result, width));
+        finish_output(); // so far
+    };
+    SuiteRun run = run_suite(options.subject(), jobs, how,
+                             {.progress = [&](const Progress& progress) { display.show(progress); },
+                              .stop = &InterruptGuard::flag()},
+                             tell);
+    if (run.interrupted) run.signal = InterruptGuard::signal();
+    return run;
+}
+
+int run(const Options& options)
+{
+    const std::string& suite = options.subject();
+    const std::vector<SuiteJob> jobs = plan_suite(suite, options.settings.scene.definitions);
+    SuiteOptions how{{}, options.filter, options.fail_fast, options.update, options.force, options.threads};
+    if (options.update) {
+        SuitePictures none(1);
+        const SuiteRun made = run_and_tell(options, jobs, how, none);
+        if (!options.quiet) print_output(summary_text(made) + "\n");
+        return exit_code_of(made);
+    }
+    std::size_t shown = 0; // at most
+    for (const SuiteJob& job : chosen_jobs(suite, jobs, how)) shown += job.entry.reference.empty() ? 1 : 2;
+    how.directory = options.directory.empty()
+                        ? std::filesystem::path("batch") / std::filesystem::path(suite).stem()
+                        : std::filesystem::path(options.directory);
+    check_suite_reports(how.directory);
+    SuitePictures pictures(shown);
+    const SuiteRun done = run_and_tell(options, jobs, how, pictures);
+    write_suite_reports(done, pictures, how.directory);
+    if (!options.quiet)
+        print_output(fmt::format("{}; reports: {}\n", summary_text(done),
+                                 visible_text((how.directory / "report.html").string())));
+    return exit_code_of(done);
+}
+
+constexpr std::string_view about_suites =
+    R"(Renders every image that a suite lists, and compares it with its reference if
+it has one.
+
+    <suite size="160x120">
+        <render scene="cbox.xml" spp="16, 64" reference="ref/cbox.exr"
+                reference-spp="1024"/>
+        <group name="hw4" max="rmse=0.01" seed="7">
+            <render scene="box.xml" name="explicit" reference="ref/*.exr">
+                <define name="explicit" value="true"/>
+            </render>
+        </group>
+    </suite>
+
+Images are named after scene (or name) and sample count: cbox_16.exr,
+cbox_64.exr, with a .png beside each, hw4/explicit_32.exr. An attribute of
+<suite> or <group> applies to everything inside it; an empty value removes it.
+File names are relative to the suite; scene="box/*.xml" takes all matching
+files. In a reference, * stands for the name of the image. The first entry that
+names a reference makes it with --update, with reference-spp and reference-seed
+if they are given. <default>, <include> and $name are those of the scene
+language; <define> is -D for the scene. All other attributes are options of
+`renderer` and `renderer compare`, where A is the image and B the reference;
+those without a value take true or false:
+)";
+
+constexpr std::string_view about_results = R"(
+The output directory also gets report.html, report.json, junit.xml and
+summary.md. An image that is up to date (the hashes of scene, options, program
+and image have not changed) is compared, but not rendered.
+Exit code: 1 if an image could not be rendered or compared, else 3 if one
+differs, else 4 if one is undecided, else 0; 2 for wrong usage.
+)";
+
+std::string settings_text()
+{
+    constexpr std::size_t columns = 80;
+    std::string text, line;
+    for (const std::string_view name : suite_settings()) {
+        if (line.size() + 1 + name.size() > columns) {
+            text += line + "\n";
+            line.clear();
+        }
+        line += (line.empty() ? "    " : " ") + std::string(name);
+    }
+    return text + line + "\n";
+}
+
+std::string manual()
+{
+    return std::string(about_suites) + settings_text() + std::string(about_results);
+}
+
+OptionTable<Options> table()
+{
+    return join<Options>(
+        {text_option<Options>(Topic::output, "--out", "DIR",
+                              "directory for images and reports\n(default batch/SUITE)", &Options::directory,
+                              "directory"),
+         switch_option<Options>(Topic::output, "--update",
+                                "make the references instead of comparing with them", &Options::update),
+         setting_options<Options>(Topic::scene, &Options::settings, {"define"}),
+         text_option<Options>(Topic::running, "--filter", "TEXT",
+                              "only images whose names contain this, or match it if\n"
+                              "it has * or ?",
+                              &Options::filter, "text"),
+         switch_option<Options>(Topic::running, "--fail-fast", "stop at the first image that does not pass",
+                                &Options::fail_fast),
+         switch_option<Options>(Topic::running, "--force", "also render what is up to date", &Options::force),
+         threads_option<Options>(), quiet_option<Options>(), help_option<Options>()});
+}
+
+} // namespace
+
+struct BatchVerb {
+    static Verb make()
+    {
+        return make_verb<Options>(
+            {"batch", "SUITE [options]", "render and compare all images of a suite", "suite", 1, 1, manual()},
+            table(), run);
+    }
+};
+template const Verb& verb<BatchVerb>();
+
+} // namespace plumb

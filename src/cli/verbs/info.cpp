@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#include "cli/console.h"
+#include "cli/verb_file.h"
+#include "reports/exit_codes.h"
+
+#include "base/visible_text.h"
+#include "render/sample_text.h"
+
+#include "plumb/image/image.h"
+
+#include <fmt/format.h>
+
+namespace plumb {
+
+namespace {
+
+constexpr std::size_t name_width = 22;
+
+void print_row(std::string_view name, std::string_view value)
+{
+    print_output(fmt::format("  {:<{}} {}\n", visible_text(name), name_width, value));
+}
+
+void print_value(const std::string& name, int value)
+{
+    print_row(name, std::to_string(value));
+}
+
+void print_value(const std::string& name, float value)
+{
+    print_row(name, fmt::format("{}", value));
+}
+
+// A row for each line.
+void print_value(const std::string& name, const std::string& value)
+{
+    for (std::size_t begin = 0; begin <= value.size();) {
+        const std::size_t end = std::min(value.find('\n', begin), value.size());
+        print_row(begin == 0 ? name : "", visible_text(value.substr(begin, end - begin)));
+        begin = end + 1;
+    }
+}
+
+// A matrix in rows of four; other lists in one line.
+void print_value(const std::string& name, const std::vector<float>& values)
+{
+    const std::size_t columns = values.size() == 16 ? 4 : std::max<std::size_t>(values.size(), 1);
+    std::string line;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        line += fmt::format("{}{}", line.empty() ? "" : " ", values[i]);
+        if ((i + 1) % columns != 0) continue;
+        print_row(i < columns ? name : "", line);
+        line.clear();
+    }
+}
+
+int run(const VerbOptions& options)
+{
+    const std::string& file = options.subject();
+    const Image image = read_image(file, false);
+    print_output(visible_text(file) + "\n");
+    print_row("size", fmt::format("{} x {}", image.full_width(), image.full_height()));
+    const PixelRect& window = image.data_window();
+    if (window != PixelRect{0, 0, image.full_width(), image.full_height()})
+        print_row("crop", rectangle_text(window));
+    std::string channels;
+    for (const std::string& name : image.channel_names()) channels += (channels.empty() ? "" : " ") + name;
+    print_value("channels", channels);
+    for (const auto& [name, value] : image.metadata)
+        std::visit([&, &key = name](const auto& v) { print_value(key, v); }, value);
+    return exit_code::done;
+}
+
+} // namespace
+
+struct InfoVerb {
+    static Verb make()
+    {
+        return make_verb<VerbOptions>({"info", "IMAGE", "print the header of an image", "image", 1, 1},
+                                      help_option<VerbOptions>(), run);
+    }
+};
+template const Verb& verb<InfoVerb>();
+
+} // namespace plumb

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include "cli/console.h"
+#include "cli/usage_error.h"
+#include "cli/verb_file.h"
+#include "plumb/scene_file/scene_file.h"
+#include "reports/exit_codes.h"
+#include "scene_file/catalog.h"
+#include "scene_file/element_manuals.h"
+#include "scene_file/foreign_names.h"
+#include "scene_file/placement.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace plumb {
+
+namespace {
+
+// In one line, however many it has in the manual.
+std::string first_sentence(std::string_view manual)
+{
+    std::string text(manual.substr(0, manual.find("\n\n")));
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    text.erase(text.find_last_not_of(' ') + 1); // npos + 1 is 0
+    return text.substr(0, text.find(". ")) + (text.find(". ") == std::string::npos ? "" : ".");
+}
+
+// The types of a kind, or all of them below their kinds.
+void print_list(std::string_view only = {})
+{
+    std::size_t width = 0;
+    for (const TypeInfo& type : known_types()) width = std::max(width, type.name.size());
+    std::string_view kind;
+    for (const TypeInfo& type : known_types()) {
+        if (!only.empty() && type.kind != only) continue;
+        if (type.kind != kind) print_output(fmt::format("{}{}\n", kind.empty() ? "" : "\n", type.kind));
+        kind = type.kind;
+        print_output(fmt::format("  {:<{}}  {}\n", type.name, width, first_sentence(type.manual)));
+    }
+}
+
+// Where the example of a kind stands.
+std::string place_text(std::string_view kind)
+{
+    const std::string_view place = kind == "bsdf"      ? "inside a <shape> or <mesh>, "
+                                   : kind == "texture" ? "inside a <bsdf> or <emitter>, "
+                                   : kind == "rfilter" ? "inside the <camera>, "
+                                                       : "";
+    return fmt::format("The example stands {}in a scene that begins with <scene dialect=\"plumb\">;\n"
+                       "'renderer new FILE' writes such a scene.\n",
+                       place);
+}
+
+// The elements that have no types.
+void print_elements()
+{
+    std::string text = "\nelements\n ";
+    for (const ElementManual& manual : element_manuals())
+        if (kind_of_tag(manual.title()).empty()) text += fmt::format(" {}", manual.title());
+    print_output(text + "\n");
+}
+
+// The kinds can share a name; then all their manuals are printed.
+bool print_type_manuals(const std::string& name)
+{
+    bool found = false;
+    for (const TypeInfo& type : known_types()) {
+        if (type.name != name) continue;
+        print_output(fmt::format("{}{} '{}'\n\n{}", found ? "\n" : "", type.kind, type.name, type.manual));
+        if (!type.manual.ends_with('\n')) print_output("\n");
+        print_output("\n" + place_text(type.kind));
+        found = true;
+    }
+    return found;
+}
+
+bool print_element_manual(std::string_view name)
+{
+    const ElementManual* manual = find_element_manual(name);
+    if (!manual) return false;
+    print_output(fmt::format("{}\n\n{}", manual->names, manual->text));
+    if (const std::string_view kind = kind_of_tag(manual->title()); !kind.empty()) {
+        print_output("\n");
+        print_list(kind);
+    }
+    return true;
+}
+
+// What others call it, or what it could be a slip of.
+[[noreturn]] void reject_name(const std::string& name)
+{
+    for (const TypeInfo& type : known_types())
+        if (const auto foreign = foreign_type(type.kind, name)) throw UsageError(*foreign);
+    if (const auto foreign = foreign_tag(name)) throw UsageError(*foreign);
+    std::vector<std::string_view> names = all_tags();
+    for (const TypeInfo& type : known_types()) names.push_back(type.name);
+    const std::string_view near = closest_name(name, names);
+    throw UsageError(near.empty() ? fmt::format("unknown type '{}'; 'renderer types' lists them", name)
+                                  : fmt::format("unknown type '{}'; did you mean '{}'?", name, near));
+}
+
+int run(const VerbOptions& options)
+{
+    const std::string name = options.subjects.empty() ? "" : options.subject();
+    if (name.empty()) {
+        print_list();
+        print_elements();
+    } else if (!print_type_manuals(name) && !print_element_manual(name)) {
+        reject_name(name);
+    }
+    return exit_code::done;
+}
+
+} // namespace
+
+struct TypesVerb {
+    static Verb make()
+    {
+        return make_verb<VerbOptions>({"types", "[NAME]", "list all types, or print a manual", "name", 0, 1},
+                                      help_option<VerbOptions>(), run);
+    }
+};
+template const Verb& verb<TypesVerb>();
+
+} // namespace plumb

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#include "plumb/rendering/task.h"
+
+#include "base/visible_text.h"
+
+namespace plumb {
+
+namespace {
+
+// Headers have no absolute paths.
+std::string name_of(const std::filesystem::path& file)
+{
+    const auto path = file.lexically_normal();
+    return valid_utf8((path.is_absolute() ? path.filename() : path).generic_string());
+}
+
+} // namespace
+
+RenderTask make_task(SceneFile& file, const RenderSettings& settings)
+{
+    RenderTask task{
+        file.path().string(), name_of(file.path()), file.load(settings.method, settings.view), settings, {}};
+    task.settings.scene = file.settings();
+    task.options.samples_per_pixel = settings.samples.per_pixel.value_or(0);
+    task.options.seed = settings.samples.seed;
+    task.options.crop = settings.view.crop;
+    task.options.aovs = settings.view.aovs;
+    task.options.samples_per_pixel = render_samples(task.scene.job, task.options);
+    return task;
+}
+
+} // namespace plumb

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+#include "reports/comparison_json.h"
+
+#include <algorithm>
+
+namespace plumb {
+
+namespace {
+
+std::string_view finding_word(Finding finding)
+{
+    switch (finding) {
+    case Finding::not_asked: return "not asked";
+    case Finding::same: return "same";
+    case Finding::different: return "different";
+    case Finding::undecided: return "undecided";
+    }
+    return "";
+}
+
+void write_place(JsonWriter& json, std::string_view key, const PixelRect& place)
+{
+    json.begin_array(key);
+    for (const int number : {place.x, place.y, place.width, place.height}) json.number({}, number);
+    json.end_array();
+}
+
+void write_metrics(JsonWriter& json, const Comparison& c)
+{
+    const Metrics& m = c.metrics;
+    json.begin_object("metrics");
+    json.number("mse", m.mse);
+    json.number("rmse", m.rmse);
+    json.number("relmse", m.relative_mse);
+    json.number("mae", m.mae);
+    json.number("psnr", m.psnr); // null: infinite
+    json.number("max", m.max);
+    json.begin_array("max_pixel");
+    json.number({}, m.max_pixel.x);
+    json.number({}, m.max_pixel.y);
+    json.end_array();
+    json.text("max_channel", c.channels[static_cast<std::size_t>(m.max_channel)]);
+    json.number("mean_luminance_a", m.mean_a);
+    json.number("mean_luminance_b", m.mean_b);
+    if (m.flip) {
+        json.number("flip", *m.flip);
+        json.text("flip_mode", c.flip_mode == FlipMode::ldr ? "ldr" : "hdr");
+    } else {
+        json.null("flip");
+    }
+    json.end_object();
+}
+
+void write_corrected(JsonWriter& json, const Comparison& c)
+{
+    if (!c.corrected) return json.null("without_noise");
+    json.begin_object("without_noise");
+    json.number("mse", c.corrected->squared_error);
+    json.number("low", c.corrected->low);
+    json.number("high", c.corrected->high);
+    if (c.corrected->root)
+        json.number("rmse", *c.corrected->root);
+    else
+        json.null("rmse");
+    json.integer("pixels", c.corrected->pixels);
+    json.end_object();
+}
+
+void write_non_finite(JsonWriter& json, const NonFinite& n)
+{
+    json.begin_object("not_finite");
+    json.integer("only_a", n.only_a);
+    json.integer("only_b", n.only_b);
+    json.integer("both", n.both);
+    if (n.first) {
+        json.begin_array("first");
+        json.number({}, n.first->x);
+        json.number({}, n.first->y);
+        json.end_array();
+    } else {
+        json.null("first");
+    }
+    json.end_object();
+}
+
+void write_scale(JsonWriter& json, const Comparison& c, const ScaleTest& scale)
+{
+    json.begin_object();
+    json.integer("size", static_cast<std::uint64_t>(scale.size));
+    json.integer("squares", scale.units);
+    json.integer("tested", scale.tested);
+    json.integer("differ", scale.rejected);
+    json.integer("smallest_for_pixels", scale.smallest_pixels);
+    if (scale.largest) {
+        const UnitTest& test = *scale.largest;
+        json.begin_object("largest");
+        write_place(json, "place", test.place);
+        json.text("channel", c.channels[static_cast<std::size_t>(test.channel)]);
+        json.number("mean_a", test.mean_a);
+        json.number("mean_b", test.mean_b);
+        json.number("t", test.t);
+        json.number("degrees_of_freedom", test.freedom);
+        json.number("p", test.p);
+        json.end_object();
+    } else {
+        json.null("largest");
+    }
+    json.end_object();
+}
+
+void write_significance(JsonWriter& json, const Comparison& c, const CompareSettings& options)
+{
+    const Significance& s = c.significance;
+    json.begin_object("noise");
+    json.text("finding", finding_word(s.finding));
+    if (!s.reason.empty()) json.text("reason", s.reason);
+    json.number("significance", options.significance);
+    if (!s.scales.empty()) {
+        json.number("p", s.p);
+        json.integer("pixels", s.pixels);
+        json.integer("differing", s.differing);
+        json.integer("untested", s.untested);
+        if (s.detectable_bias)
+            json.number("detectable_bias", *s.detectable_bias);
+        else
+            json.null("detectable_bias");
+        json.begin_array("scales");
+        for (const ScaleTest& scale : s.scales) write_scale(json, c, scale);
+        json.end_array();
+    }
+    json.end_object();
+}
+
+void write_limits(JsonWriter& json, const Comparison& c, const CompareSettings& options)
+{
+    json.begin_array("limits");
+    for (const Threshold& limit : options.thresholds) {
+        const auto is_this = [&limit](const Threshold& t) { return t.metric == limit.metric; };
+        json.begin_object();
+        json.text("metric", limit.metric);
+        json.number("limit", limit.limit);
+        json.number("value", metric_value(c.metrics, limit.metric));
+        json.boolean("exceeded", std::any_of(c.exceeded.begin(), c.exceeded.end(), is_this));
+        json.end_object();
+    }
+    json.end_array();
+}
+
+} // namespace
+
+void write_comparison(JsonWriter& json, const Comparison& comparison, const CompareSettings& options)
+{
+    json.text("outcome", outcome_word(comparison.outcome));
+    json.boolean("identical", comparison.identical);
+    json.begin_array("resolution");
+    json.number({}, comparison.width);
+    json.number({}, comparison.height);
+    json.end_array();
+    write_metrics(json, comparison);
+    write_corrected(json, comparison);
+    write_non_finite(json, comparison.non_finite);
+    write_significance(json, comparison, options);
+    write_limits(json, comparison, options);
+}
+
+std::string comparison_json(const Comparison& comparison, const CompareSettings& options,
+                            const std::string& a, const std::string& b)
+{
+    JsonWriter json;
+    json.begin_object();
+    json.text("a", a);
+    json.text("b", b);
+    write_comparison(json, comparison, options);
+    json.end_object();
+    return std::move(json).finish();
+}
+
+} // namespace plumb

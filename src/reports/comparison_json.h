@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "base/json.h"
+#include "plumb/reports/comparison_report.h"
+
+namespace plumb {
+
+// The members of comparison_json() but for the names of the pictures.
+void write_comparison(JsonWriter& json, const Comparison& comparison, const CompareSettings& settings);
+
+} // namespace plumb

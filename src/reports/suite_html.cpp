@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+
+// report.html: the results as JSON and the pictures as base64, inside the page of report.html.
+
+#include "reports/picture_data.h"
+#include "reports/report_page.h"
+#include "reports/suite_json.h"
+
+#include "base/visible_text.h"
+#include "plumb/base/error.h"
+
+#include <fstream>
+#include <iterator>
+
+#include <fmt/format.h>
+
+namespace plumb {
+
+namespace {
+
+// A browser should still like the page: about a hundred megabytes of pictures.
+constexpr double most_pixels = 18e6;
+
+std::string read_bytes(const std::string& file)
+{
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+// By how much the pictures must shrink so that all of them are not too many pixels together.
+int reduction_for(const Image& image, std::size_t pictures)
+{
+    const double pixels = static_cast<double>(image.data_window().width) * image.data_window().height;
+    int reduction = 1;
+    while (pixels / (reduction * reduction) * static_cast<double>(pictures) > most_pixels) ++reduction;
+    return reduction;
+}
+
+// JSON and base64 inside a <script>: nothing there may look like a tag.
+std::string script_text(std::string text)
+{
+    for (std::size_t i = text.find('<'); i != text.npos; i = text.find('<', i)) text.replace(i, 1, "\\u003c");
+    return text;
+}
+
+std::string html_text(std::string_view text)
+{
+    std::string result;
+    for (const char c : visible_text(text))
+        result += c == '<' ? "&lt;" : c == '&' ? "&amp;" : std::string(1, c);
+    return result;
+}
+
+class PageWriter {
+public:
+    PageWriter(const SuiteRun& run, const SuitePictures& pictures) : run_(run), shown_(pictures) {}
+
+    std::string write()
+    {
+        json_.begin_object();
+        write_summary(json_, run_);
+        json_.begin_array("pictures");
+        for (const SuiteResult& result : run_.results) {
+            json_.begin_object();
+            write_result(json_, result);
+            write_pictures(result);
+            json_.end_object();
+        }
+        json_.end_array();
+        json_.end_object();
+
+        std::string page;
+        std::string_view rest = report_page;
+        const auto put = [&](std::string_view place, const std::string& text) {
+            const std::size_t at = rest.find(place);
+            page.append(rest.substr(0, at)).append(text);
+            rest.remove_prefix(at + place.size());
+        };
+        put("{{title}}", html_text(run_.suite));
+        put("{{data}}", script_text(std::move(json_).finish()));
+        put("{{pictures}}", pictures_);
+        return page.append(rest);
+    }
+
+private:
+    void write_pictures(const SuiteResult& result)
+    {
+        const SuitePictures::Shown* shown = shown_.find(result.title);
+        if (!shown) return;
+        json_.begin_object("shown");
+        json_.integer("width", static_cast<std::uint64_t>(shown->width));
+        json_.integer("height", static_cast<std::uint64_t>(shown->height));
+        json_.integer("reduction", static_cast<std::uint64_t>(shown->reduction));
+        add("picture", shown->picture);
+        if (!shown->reference.empty()) add("reference", shown->reference);
+        if (!result.difference.empty()) add("difference", read_bytes(result.difference));
+        json_.end_object();
+    }
+
+    // An element of its own, so that the page decodes what is looked at.
+    void add(std::string_view key, const std::string& bytes)
+    {
+        json_.text(key, fmt::format("data-{}", number_));
+        pictures_ +=
+            fmt::format("<script type=\"text/plain\" id=\"data-{}\">{}</script>\n", number_++, base64(bytes));
+    }
+
+    const SuiteRun& run_;
+    const SuitePictures& shown_;
+    JsonWriter json_;
+    std::string pictures_;
+    int number_ = 0;
+};
+
+} // namespace
+
+SuitePictures::SuitePictures(std::size_t count) : count_(count) {}
+
+void SuitePictures::add(const SuiteResult& result, const SuiteImages& images)
+{
+    if (!images.picture || result.picture.empty()) return;
+    const int reduction = reduction_for(*images.picture, count_);
+    const PixelRect& window = images.picture->data_window();
+    Shown& shown = shown_[result.title];
+    shown = {reduced_size(window.width, reduction),
+             reduced_size(window.height, reduction),
+             reduction,
+             shared_exponent_bytes(*images.picture, reduction),
+             {}};
+    if (result.comparison && images.reference)
+        shown.reference = shared_exponent_bytes(*images.reference, reduction);
+}
+
+const SuitePictures::Shown* SuitePictures::find(const std::string& title) const
+{
+    const auto found = shown_.find(title);
+    return found == shown_.end() ? nullptr : &found->second;
+}
+
+std::string suite_html(const SuiteRun& run, const SuitePictures& pictures)
+{
+    return PageWriter(run, pictures).write();
+}
+
+} // namespace plumb

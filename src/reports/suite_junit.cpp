@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+
+// junit.xml, as continuous integration reads it: a test case for each picture. Undecided is a failure, for it is no
+// agreement.
+
+#include "base/text.h"
+#include "base/visible_text.h"
+#include "plumb/reports/suite_report.h"
+
+#include <fmt/format.h>
+
+namespace plumb {
+
+namespace {
+
+// As the value of an attribute or as text. XML 1.0 has no control characters but these three, nor U+FFFE and U+FFFF
+// (section 2.2); what shows it may be a terminal, which the others must not steer.
+std::string xml_text(std::string_view text)
+{
+    std::string result;
+    const std::string valid = valid_utf8(text);
+    for (std::string_view rest = valid; !rest.empty();) {
+        const std::string_view character = rest.substr(0, utf8_length(rest));
+        rest.remove_prefix(character.size());
+        const char32_t code = code_point(character);
+        switch (code) {
+        case '&': result += "&amp;"; break;
+        case '<': result += "&lt;"; break;
+        case '>': result += "&gt;"; break;
+        case '"': result += "&quot;"; break;
+        case '\n': result += "&#10;"; break;
+        case '\t': result += "&#9;"; break;
+        case '\r': result += "&#13;"; break;
+        default:
+            if (code < 0x20 || code == 0xfffe || code == 0xffff)
+                result += "?";
+            else if (steers(character))
+                result += fmt::format("&#{};", static_cast<std::uint32_t>(code));
+            else
+                result += character;
+        }
+    }
+    return result;
+}
+
+std::string details(const SuiteResult& result)
+{
+    std::string text = result.problem.empty() ? reason_text(result) : result.problem;
+    text += "\n" + result.command;
+    if (result.comparison) text += fmt::format("\nrmse {:.6g}", result.comparison->metrics.rmse);
+    if (result.noise) text += fmt::format("\nnoise {:.6g}", *result.noise);
+    return text;
+}
+
+std::string outcome(const SuiteResult& result)
+{
+    const std::string message = xml_text(reason_text(result));
+    switch (result.verdict) {
+    case SuiteVerdict::made:
+    case SuiteVerdict::passes:
+    case SuiteVerdict::rendered: return {};
+    case SuiteVerdict::not_run: return fmt::format("      <skipped message=\"{}\"/>\n", message);
+    case SuiteVerdict::error:
+        return fmt::format("      <error type=\"error\" message=\"{}\">{}</error>\n", message,
+                           xml_text(details(result)));
+    case SuiteVerdict::differs:
+    case SuiteVerdict::undecided:
+        return fmt::format("      <failure type=\"{}\" message=\"{}\">{}</failure>\n",
+                           verdict_word(result.verdict), message, xml_text(details(result)));
+    }
+    return {};
+}
+
+} // namespace
+
+std::string suite_junit(const SuiteRun& run)
+{
+    const std::string suite = xml_text(std::filesystem::path(run.suite).stem().string());
+    const std::string counts =
+        fmt::format(R"(tests="{}" failures="{}" errors="{}" skipped="{}" time="{:.3f}")", run.results.size(),
+                    run.count(SuiteVerdict::differs) + run.count(SuiteVerdict::undecided),
+                    run.count(SuiteVerdict::error), run.count(SuiteVerdict::not_run), run.seconds);
+    std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
+    text += fmt::format("<testsuites {}>\n  <testsuite name=\"{}\" {}>\n", counts, suite, counts);
+    for (const SuiteResult& result : run.results) {
+        const std::string body = outcome(result);
+        text += fmt::format("    <testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\"{}", suite,
+                            xml_text(result.title), result.seconds, body.empty() ? "/>\n" : ">\n");
+        if (!body.empty()) text += body + "    </testcase>\n";
+    }
+    return text + "  </testsuite>\n</testsuites>\n";
+}
+
+} // namespace plumb
