@@ -36,8 +36,7 @@ namespace plumb {
 class NormalMap final : public BentNormal {
 public:
     explicit NormalMap(const Params& params)
-        : BentNormal(params),
-          normal_(params.color_texture("normal", Color(0.5f, 0.5f, 1.f), Range::any()))
+        : BentNormal(params), normal_(params.color_texture("normal", Color(0.5f, 0.5f, 1.f), Range::any()))
     {}
 
 private:
