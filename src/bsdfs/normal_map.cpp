@@ -15,7 +15,7 @@ namespace plumb {
 /// Light is scattered only where it is on the same side of the bent normal as of the surface, so that none leaks
 /// through.
 ///
-///     normal               color or texture   in [0, 1]                                                           (default 0.5 0.5 1: as the surface)
+///     normal               color or texture   (n + 1) / 2                                                         (default 0.5 0.5 1: as the surface)
 ///     useShadowing         boolean            soften where light on tilted normals ends ([Estevez et al. 2019])   (default false)
 ///     flipInvalidNormals   boolean            mirror normals that turn away from the viewer; else black there     (default true)
 ///
@@ -36,8 +36,7 @@ namespace plumb {
 class NormalMap final : public BentNormal {
 public:
     explicit NormalMap(const Params& params)
-        : BentNormal(params),
-          normal_(params.color_texture("normal", Color(0.5f, 0.5f, 1.f), Range::closed(0.0, 1.0)))
+        : BentNormal(params), normal_(params.color_texture("normal", Color(0.5f, 0.5f, 1.f), Range::any()))
     {}
 
 private:
