@@ -6,6 +6,7 @@
 // maps that turn, scale by 10^-2.5 to 10^2.5 per axis, mirror and move by up to 1e3 times the size. Rays start on both
 // sides, also on edges, in all directions and down to angles of 1e-9 with the plane: any hit is wrong.
 
+#include "plumb/model/shape.h"
 #include "plumb/scene/scene.h"
 
 #include "base/float_mode.h"

@@ -3,6 +3,8 @@
 // Normal and bump maps beside Mitsuba 3.9.1: a white square of width 2 under a sun of irradiance pi.
 
 #include "plumb/image/image.h"
+#include "plumb/model/shape.h"
+#include "plumb/scene/scene.h"
 #include "plumb/scene_file/scene_file.h"
 #include "support/catch.h"
 #include "support/temp_directory.h"

@@ -3,6 +3,7 @@
 // Emitters without random numbers: light of points and directions, power, defaults and errors.
 
 #include "plumb/model/emitter.h"
+#include "plumb/model/shape.h"
 
 #include "support/catch.h"
 #include "support/lamp.h"

@@ -3,8 +3,10 @@
 // Groups and their instances: loading, what the scene knows of them, memory.
 
 #include "plumb/check/check.h"
+#include "plumb/model/shape.h"
 #include "plumb/render/aovs.h"
 #include "plumb/render/render.h"
+#include "plumb/scene/scene.h"
 #include "support/catch.h"
 #include "support/scene_text.h"
 
