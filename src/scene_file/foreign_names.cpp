@@ -120,13 +120,9 @@ constexpr ForeignName names[] = {
     {"shape", "plane", "", "use 'rectangle', or an 'obj' mesh"},
     {"shape", "quad", "rectangle", ""},
     {"shape", "square", "rectangle", ""},
-    {"shape", "cube", "", "use an 'obj' mesh"},
     {"shape", "box", "", "use an 'obj' mesh"},
     {"shape", "disc", "disk", ""},
     {"shape", "circle", "disk", ""},
-    {"shape", "cylinder", "", "use an 'obj' mesh"},
-    {"shape", "ply", "", "convert the file to .obj and use 'obj'"},
-    {"shape", "serialized", "", "convert the file to .obj and use 'obj'"},
     {"shape", "shapegroup", "group", ""},
     {"shape", "mesh", "obj", ""},
     {"shape", "trianglemesh", "obj", ""},
@@ -146,7 +142,6 @@ constexpr ForeignName names[] = {
     {"emitter", "distant_light", "directional", ""},
     {"emitter", "directional_light", "directional", ""},
     {"emitter", "sun", "directional", ""},
-    {"emitter", "spot", "", use_tube},
     {"emitter", "spotlight", "", use_tube},
     {"emitter", "spot_emitter", "", use_tube},
     {"emitter", "distantdisk", "", "use 'environment', or 'directional' for a small disk"},
@@ -168,7 +163,6 @@ constexpr ForeignName names[] = {
     {"camera", "pinhole", "perspective", ""},
     {"camera", "projective", "perspective", ""},
     {"camera", "dof", "thinlens", ""},
-    {"camera", "orthographic", "", "use 'perspective' from far away with a small fov"},
 
     {"sampler", "random", "independent", ""},
     {"sampler", "halton", "", "use 'sobol'"},
@@ -178,8 +172,6 @@ constexpr ForeignName names[] = {
     {"sampler", "orthogonal", "", "use 'sobol'"},
 
     {"rfilter", "triangle", "tent", ""},
-    {"rfilter", "catmullrom", "", "use 'mitchell'"},
-    {"rfilter", "lanczos", "", "use 'mitchell'"},
 };
 
 // Without what people write in different ways.

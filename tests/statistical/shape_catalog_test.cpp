@@ -103,19 +103,24 @@ Transform even_mirror()
 }
 
 // A mirror that shears; or, of shapes that cannot be sheared, one that keeps angles.
-std::unique_ptr<Shape> transformed(const std::string& xml)
+struct Transformed {
+    std::unique_ptr<Shape> shape;
+    bool is_sheared;
+};
+
+Transformed transformed(const std::string& xml)
 {
     const std::string turn = "<rotate axis=\"1,2,-1\" angle=\"50\"/><translate value=\"3,-2,1\"/>";
     try {
         const Sample sheared(with_transform(
             xml, "<matrix value=\"-1.5 0.6 0 0  0 0.8 0.3 0  0.2 0 1.2 0  0 0 0 1\"/>" + turn));
-        return sheared.build(shape_types());
+        return {sheared.build(shape_types()), true};
     } catch (const std::runtime_error&) {
         auto shape =
             Sample(with_transform(xml, "<scale value=\"-1.5,1.5,1.5\"/>" + turn)).build(shape_types());
         // Sheared, it would be none, and the cross-section of a cylinder no circle.
         CHECK((shape->as_ball() || xml.find("type=\"cylinder\"") != xml.npos));
-        return shape;
+        return {std::move(shape), false};
     }
 }
 
@@ -124,9 +129,8 @@ std::vector<Case> cases()
     std::vector<Case> result;
     for (const auto& sample : samples_of(shape_types())) {
         result.push_back({sample->text(), Alone(sample->build(shape_types()))});
-        result.push_back({"transformed " + sample->text(), Alone(transformed(sample->text()))});
-        auto twin = transformed(sample->text());
-        const bool is_sheared = !twin->as_ball();
+        result.push_back({"transformed " + sample->text(), Alone(transformed(sample->text()).shape)});
+        auto [twin, is_sheared] = transformed(sample->text());
         const Sample plain(with_transform(sample->text(), "<translate value=\"0,0,0\"/>"));
         result.push_back(
             {"in an instance: " + sample->text(), Alone(plain.build(shape_types()), std::move(twin),

@@ -250,14 +250,16 @@ TEST_CASE("AOVs change no bit of beauty, and trace no ray", "[unit][aov]")
 TEST_CASE("AOVs of a furnace lose nothing in glass", "[unit][aov]")
 {
     // A glass ball in a closed room of one albedo: all that it reflects and refracts arrives at the room.
-    const Rendered seen("<shape type='sphere'><float name='radius' value='9'/>" + red +
-                            "</shape><shape type='sphere'><point name='center' value='0,0,4'/>"
-                            "<bsdf type='dielectric'/></shape>" +
-                            lamp,
-                        40.f, 64);
-    // 4096 samples whose weights are 1 but for rounding.
-    CHECK(seen.mean("albedo_behind.R") == Approx(0.7).epsilon(1e-4));
-    CHECK(seen.mean("albedo_behind.B") == Approx(0.1).epsilon(1e-4));
+    const Rendered seen(
+        "<shape type='sphere'><float name='radius' value='9'/><boolean name='flipNormals' value='true'/>" +
+            red +
+            "</shape><shape type='sphere'><point name='center' value='0,0,4'/>"
+            "<bsdf type='dielectric'/></shape>" +
+            lamp,
+        40.f, 64);
+    // The weights of 4096 samples are 1 but for roulette, which looks at some of 0.2 % of them: a standard error of 0.0002.
+    CHECK(seen.mean("albedo_behind.R") == Approx(0.7).epsilon(1e-3));
+    CHECK(seen.mean("albedo_behind.B") == Approx(0.1).epsilon(1e-3));
     CHECK(seen.mean("coverage.A") == 1.0);
     Rendered::each([&](int x, int y) { CHECK(seen.at(x, y, "object_behind.id") == 1.f); });
 }

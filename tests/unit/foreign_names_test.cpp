@@ -86,7 +86,8 @@ TEST_CASE("well-known names of other renderers are answered", "[unit][foreign_na
     CHECK(foreign_type("bsdf", "disneyBSDF") ==
           "bsdf 'disneyBSDF' is not supported; use 'principled' or 'roughplastic'");
     CHECK(foreign_type("emitter", "env_map") == "emitter 'env_map' is 'environment' here");
-    CHECK(foreign_type("shape", "cube") == "shape 'cube' is not supported; use an 'obj' mesh");
+    CHECK(foreign_type("shape", "plane") ==
+          "shape 'plane' is not supported; use 'rectangle', or an 'obj' mesh");
     CHECK(foreign_tag("rgb") == "<rgb> is <color> here");
     CHECK_FALSE(foreign_type("bsdf", "mipath"));
     CHECK_FALSE(foreign_type("integrator", "path_miss"));

@@ -207,7 +207,8 @@ TEST_CASE("ids and aliases", "[unit][mitsuba]")
     CHECK(
         read("<bsdf type='diffuse' id='m'/><alias id='m' as='n'/><shape type='sphere'><ref id='n'/></shape>" +
              rest)
-            .text == "<bsdf type='diffuse' id='m'/><shape type='sphere'><ref id='m'/></shape>");
+            .text == "<bsdf type='diffuse' id='m'/><shape type='sphere'><ref id='m'/><boolean name='flipU' "
+                     "value='true'/></shape>");
     CHECK(messages("<bsdf type='diffuse' id='m'/><shape type='sphere' id='m'/>") ==
           "a.xml:1:78: error: the id 'm' is given twice; first given at line 1\n");
 }
@@ -229,7 +230,7 @@ TEST_CASE("what Mitsuba's files need and Plumb has not is refused in their words
     const Read lenient =
         read("<medium type='homogeneous'/><shape type='sdfgrid'/><shape type='sphere'/>" + rest, "3.0.0", {},
              true);
-    CHECK(lenient.text == "<shape type='sphere'/>");
+    CHECK(lenient.text == "<shape type='sphere'><boolean name='flipU' value='true'/></shape>");
     CHECK_THAT(
         lenient.messages,
         ContainsSubstring("warning: shape 'sdfgrid' is not supported; export it as a mesh; it is left out"));
@@ -244,9 +245,10 @@ TEST_CASE("what is missing in a Mitsuba scene", "[unit][mitsuba]")
     // A lamp is black, unless it has a bsdf.
     CHECK(read("<shape type='sphere'><emitter type='area'/></shape>" + rest).text ==
           "<shape type='sphere'><emitter type='area'/><bsdf type='diffuse'><color name='albedo' value='0 0 "
-          "0'/></bsdf></shape>");
+          "0'/></bsdf><boolean name='flipU' value='true'/></shape>");
     CHECK(read("<shape type='sphere'><emitter type='area'/><bsdf type='diffuse'/></shape>" + rest).text ==
-          "<shape type='sphere'><emitter type='area'/><bsdf type='diffuse'/></shape>");
+          "<shape type='sphere'><emitter type='area'/><bsdf type='diffuse'/>"
+          "<boolean name='flipU' value='true'/></shape>");
 }
 
 TEST_CASE("files of Mitsuba 0.4 to 0.6", "[unit][mitsuba]")
