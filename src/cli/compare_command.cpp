@@ -17,11 +17,31 @@ namespace plumb {
 namespace {
 
 // Made for screens: no values above 1.
-bool is_low_dynamic_range(const std::filesystem::path& path)
+bool is_low_dynamic_range(const std::vector<std::string>& paths)
 {
-    const std::string extension = lower_case(path.extension().string());
+    const std::string extension = lower_case(std::filesystem::path(paths.front()).extension().string());
     return extension == ".png" || extension == ".jpg" || extension == ".jpeg" || extension == ".bmp" ||
            extension == ".tga" || extension == ".gif" || extension == ".ppm";
+}
+
+// One image, or the mean of several.
+Image read_side(const std::vector<std::string>& paths, Side side)
+{
+    if (paths.size() == 1) {
+        Image image = read_image(paths.front(), true);
+        if (is_low_dynamic_range(paths)) mark_for_screens(image);
+        return image;
+    }
+    std::vector<Image> replicas;
+    for (const std::string& path : paths) replicas.push_back(read_image(path, true));
+    return mean_of_replicas(replicas, side);
+}
+
+std::string title(const char* side, const std::vector<std::string>& paths)
+{
+    std::string text = side;
+    for (const std::string& path : paths) text += " " + visible_text(path);
+    return text + "\n";
 }
 
 void write_reports(const CompareRequest& request, const Comparison& comparison, const Image& a,
@@ -42,6 +62,11 @@ std::string_view compare_manual()
     return R"(Tests whether A and the reference B are equal except for their noise.
 Exit code: 0 passes, 1 cannot be compared, 2 wrong usage, 3 differs,
 4 undecided.
+
+Error bars are the images' variance channels: variance.R (of the mean), pbrt's
+Variance.R (of a sample), the moments of Mitsuba's integrator moment. Without
+them, pass several images of other seeds and the reference with --against, or
+the noise is taken from the differences of A and B.
 )";
 }
 
@@ -50,10 +75,12 @@ int compare_command(const CompareRequest& request)
     std::vector<std::string> images;
     if (!request.difference.empty()) images.push_back(request.difference);
     check_outputs(images, request.json);
-    refuse_overwriting_inputs(KeptFiles({request.a, request.b}), images, request.json,
+    std::vector<std::string> inputs = request.a;
+    inputs.insert(inputs.end(), request.b.begin(), request.b.end());
+    refuse_overwriting_inputs(KeptFiles({inputs.begin(), inputs.end()}), images, request.json,
                               "it is one of the images to compare");
-    const Image a = read_image(request.a, true);
-    const Image b = read_image(request.b, true);
+    const Image a = read_side(request.a, Side::a);
+    const Image b = read_side(request.b, Side::b);
 
     CompareSettings how = request.how;
     if (!how.flip && !how.layer.empty())
@@ -64,8 +91,7 @@ int compare_command(const CompareRequest& request)
     const Comparison comparison = compare(a, b, how);
     write_reports(request, comparison, a, b);
     if (!request.quiet && request.json != "-")
-        print_output("A " + visible_text(request.a) + "\nB " + visible_text(request.b) + "\n" +
-                     comparison_text(comparison, how));
+        print_output(title("A", request.a) + title("B", request.b) + comparison_text(comparison, how));
     return exit_code_of(comparison.outcome);
 }
 

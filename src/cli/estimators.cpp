@@ -65,6 +65,7 @@ std::vector<Pair> compare_pairs(const std::vector<Estimate>& estimates, const Co
 {
     CompareSettings how = options;
     how.flip = FlipMode::none;
+    how.alignment = false;
     how.significance /= static_cast<double>(estimates.size() * (estimates.size() - 1) / 2); // Bonferroni
     std::vector<Pair> pairs;
     for (std::size_t i = 0; i < estimates.size(); ++i)
@@ -99,9 +100,9 @@ std::string pair_text(const Pair& pair)
 {
     const Significance& found = pair.comparison.significance;
     std::string text = fmt::format(
-        "  {} and {}: {}, p {:.3g}", pair.a.name, pair.b.name,
+        "  {} and {}: {}, p {}", pair.a.name, pair.b.name,
         pair.comparison.outcome == CompareOutcome::passes ? "agree" : outcome_word(pair.comparison.outcome),
-        found.p);
+        p_text(found.p, 3));
     if (pair.comparison.outcome == CompareOutcome::undecided && !found.reason.empty())
         text += fmt::format(" ({})", found.reason);
     if (pair.comparison.outcome == CompareOutcome::passes && found.differing + found.untested > 0)

@@ -177,7 +177,19 @@ std::vector<OptionRow> make_rows()
 
         of_comparison(compare_only | agree_or_race, "significance"),
         of_comparison(compare_only, "layer"),
+        {Topic::verdict, compare_only, "--against", "FILE",
+         "the reference; all other images are replicas of A,\n"
+         "which differ in their seeds; may be repeated for\n"
+         "replicas of B",
+         [](Options& o, Name n, Text t) {
+             if (t.empty()) throw UsageError(fmt::format("{} needs a file name", n));
+             o.compare.b.push_back(std::string(t));
+         },
+         true},
         of_comparison(compare_only, "exact"),
+        of_comparison(compare_only, "variance-of"),
+        {Topic::verdict, compare_only, "--spp", "N", "samples per pixel of images whose headers do not say",
+         [](Options& o, Name n, Text t) { o.compare.how.samples = parse_double(n, t, 1.0, 1e15); }},
         of_comparison(compare_only, "no-verdict"),
         of_comparison(compare_only | agree_or_race, "fail-percent"),
         of_comparison(compare_only, "max"),

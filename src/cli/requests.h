@@ -45,9 +45,9 @@ struct TestRequest {
     bool quiet = false;
 };
 
-// Two pictures; b is the reference.
+// Two images; b is the reference. Several files of one side are replicas: they differ in their seeds.
 struct CompareRequest {
-    std::string a, b;
+    std::vector<std::string> a, b;
     CompareSettings how;
     std::string difference; // the picture of it to write; empty: none
     bool difference_is_flip = false;

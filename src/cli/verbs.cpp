@@ -43,8 +43,18 @@ TestRequest test_request(const Options& options)
 CompareRequest compare_request(const Options& options)
 {
     CompareRequest request = options.compare;
-    request.a = options.subjects[0];
-    request.b = options.subjects[1];
+    request.a = options.subjects;
+    if (request.b.empty()) {
+        if (request.a.size() > 2)
+            throw UsageError(
+                fmt::format("{} images are given; pass the reference with --against FILE, the others "
+                            "are then replicas of A",
+                            request.a.size()));
+        if (request.a.size() < 2)
+            throw UsageError("compare needs two images; 'renderer compare --help' shows how");
+        request.b = {request.a.back()};
+        request.a.pop_back();
+    }
     request.json = options.json;
     request.quiet = options.quiet;
     return request;
@@ -89,8 +99,8 @@ constexpr VerbRow rows[] = {
      any_number, [](const Options& o) { return merge_command(merge_request(o)); }, merge_manual},
     {Verb::check, "check", "SCENE [options]", "check a scene for likely mistakes", "scene file", 1, 1,
      [](const Options& o) { return check_command(o); }, check_manual},
-    {Verb::compare, "compare", "A B [options]", "are two images equal except for noise?", "image", 2, 2,
-     [](const Options& o) { return compare_command(compare_request(o)); }, compare_manual},
+    {Verb::compare, "compare", "A B [options]", "are two images equal except for noise?", "image", 1,
+     any_number, [](const Options& o) { return compare_command(compare_request(o)); }, compare_manual},
     {Verb::agree, "agree", "SCENE [options]", "do the estimators agree on a scene?", "scene file", 1, 1,
      [](const Options& o) { return agree_command(race_request(o)); }, agree_manual},
     {Verb::race, "race", "SCENE [options]", "which estimator is the most efficient?", "scene file", 1, 1,

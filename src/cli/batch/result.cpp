@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cli/batch/result.h"
+#include "cli/comparison_text.h"
 
 #include "cli/exit_codes.h"
 #include "cli/text.h"
@@ -76,8 +77,8 @@ std::string reason_text(const BatchResult& result)
         reasons.push_back(fmt::format("{} pixels are not finite in one of the images, the first is {},{}",
                                       broken.only_a + broken.only_b, broken.first->x, broken.first->y));
     if (noise.finding == Finding::different && noise.p < result.how.significance)
-        reasons.push_back(fmt::format("the difference exceeds the noise: p {:.2g}, {:.3g} % of the pixels",
-                                      noise.p,
+        reasons.push_back(fmt::format("the difference exceeds the noise: p {}, {:.3g} % of the pixels",
+                                      p_text(noise.p),
                                       100.0 * static_cast<double>(noise.differing) /
                                           static_cast<double>(std::max<std::uint64_t>(noise.pixels, 1))));
     if (result.verdict == BatchVerdict::undecided && !noise.reason.empty()) reasons.push_back(noise.reason);
