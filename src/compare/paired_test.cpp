@@ -42,10 +42,10 @@ constexpr std::array surroundings = {16, 64};
 // Where the correlation reaches too far, or an image has no noise in its pixels, d may be what a denoiser has left of A's noise, or a smooth error. No denoiser
 // makes the error of a sum larger than it was. So only that is a difference which would be one even if the noise of the
 // sums were that of independent pixels with so many times the variance that neighbours show, or that the other image is
-// known to have: if A had a 63rd of its samples.
+// known to have: if A had a 31st of its samples.
 constexpr int own_noise_square = 32;
 constexpr double least_own_noise = 0.05; // of the other image's variance
-constexpr double hidden_noise = 64.0;
+constexpr double hidden_noise = 32.0;
 constexpr double hidden_freedom = 30.0;
 constexpr int least_hidden_square = 16;
 
