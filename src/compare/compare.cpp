@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "plumb/compare/compare.h"
 
+#include "compare/alignment.h"
 #include "compare/flip.h"
 #include "compare/metrics.h"
-#include "compare/significance.h"
+#include "compare/verdict.h"
 #include "plumb/base/error.h"
 
 #include <fmt/format.h>
@@ -37,44 +38,6 @@ void add_flip(Comparison& comparison, const Picture& a, const Picture& b, FlipMo
     comparison.flip_map = std::move(error.map);
 }
 
-std::uint64_t tolerated_pixels(const Picture& a, const CompareSettings& options)
-{
-    return static_cast<std::uint64_t>(static_cast<double>(a.pixels()) * options.fail_percent / 100.0);
-}
-
-Significance find_significance(const Picture& a, const Picture& b, const CompareSettings& options)
-{
-    Significance result;
-    const auto without_tests = [&result](Finding finding, std::string reason) {
-        result.finding = finding;
-        result.reason = std::move(reason);
-        return result;
-    };
-    if (!options.verdict) return without_tests(Finding::not_asked, "only the limits decide");
-    if (a.is_exact && b.is_exact) return without_tests(Finding::not_asked, "neither image has noise");
-    if (!a.knows_noise() && !b.knows_noise())
-        return without_tests(Finding::not_asked, "neither image has variance channels");
-    if (!a.knows_noise() || !b.knows_noise())
-        return without_tests(Finding::undecided,
-                             fmt::format("{0} has no variance channels; if it has no noise, pass --exact {0}",
-                                         a.knows_noise() ? "B" : "A"));
-
-    result = test_significance(a, b, options);
-    const std::uint64_t tolerated = tolerated_pixels(a, options);
-    const bool nothing_is_tested = // then nobody can tolerate it
-        result.differing == 0 && result.untested + count_non_finite(a, b).both >= result.pixels;
-    if (result.differing > tolerated) {
-        result.finding = Finding::different;
-    } else if (nothing_is_tested || result.differing + result.untested > tolerated) {
-        result.finding = Finding::undecided;
-        result.reason = fmt::format("{} of {} pixels lie in no square where the samples support a test",
-                                    result.untested, result.pixels);
-    } else {
-        result.finding = Finding::same;
-    }
-    return result;
-}
-
 bool is_exceeded(const Metrics& metrics, const Threshold& threshold)
 {
     const double value = metric_value(metrics, threshold.metric);
@@ -100,6 +63,8 @@ Comparison compare_pictures(Picture a, Picture b, const CompareSettings& options
     b.is_exact = options.exact == Side::b;
 
     Comparison result;
+    result.noise_a = a.is_exact ? "exact" : a.noise;
+    result.noise_b = b.is_exact ? "exact" : b.noise;
     result.width = a.window.width;
     result.height = a.window.height;
     result.channels = a.channels;
@@ -115,6 +80,12 @@ Comparison compare_pictures(Picture a, Picture b, const CompareSettings& options
         result.significance.finding = Finding::same;
         result.significance.reason.clear();
     }
+    const Significance& found = result.significance;
+    const bool is_hidden =
+        found.difference_noise && found.difference_noise->is_hidden; // it may be a mirrored image
+    if (options.alignment &&
+        (found.finding == Finding::different || (found.finding == Finding::undecided && is_hidden)))
+        result.alignment = find_alignment(a, b, options, found.shift.has_value());
     for (const Threshold& threshold : options.thresholds)
         if (is_exceeded(result.metrics, threshold)) result.exceeded.push_back(threshold);
     result.outcome = find_outcome(result, options, tolerated_pixels(a, options));
@@ -125,21 +96,21 @@ Comparison compare_pictures(Picture a, Picture b, const CompareSettings& options
 
 Comparison compare(const Estimate& a, const Estimate& b, const CompareSettings& settings)
 {
-    const auto picture = [&](const Estimate& one, Side side) {
-        return make_picture(one.image, {one.samples_per_pixel, one.estimator, one.seed}, side,
-                            settings.layer);
+    auto [picture_a, picture_b] = make_pictures(a.image, b.image, settings);
+    const auto take_facts = [](Picture& picture, const Estimate& one) {
+        picture.samples_per_pixel = one.samples_per_pixel;
+        picture.estimator = one.estimator;
+        picture.seed = one.seed;
     };
-    Picture picture_a = picture(a, Side::a); // the first to complain
-    return compare_pictures(std::move(picture_a), picture(b, Side::b), settings);
+    take_facts(picture_a, a);
+    take_facts(picture_b, b);
+    return compare_pictures(std::move(picture_a), std::move(picture_b), settings);
 }
 
 Comparison compare(const Image& a, const Image& b, const CompareSettings& settings)
 {
-    const auto picture = [&](const Image& image, Side side) {
-        return make_picture(image, facts_of_header(image), side, settings.layer);
-    };
-    Picture picture_a = picture(a, Side::a); // the first to complain
-    return compare_pictures(std::move(picture_a), picture(b, Side::b), settings);
+    auto [picture_a, picture_b] = make_pictures(a, b, settings);
+    return compare_pictures(std::move(picture_a), std::move(picture_b), settings);
 }
 
 } // namespace plumb

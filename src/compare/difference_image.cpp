@@ -121,8 +121,9 @@ double nearly_largest(std::vector<float> errors)
 
 Image difference_image(const Image& image_a, const Image& image_b, const std::string& layer)
 {
-    const Picture a = make_picture(image_a, {}, Side::a, layer);
-    const Picture b = make_picture(image_b, {}, Side::b, layer);
+    CompareSettings options;
+    options.layer = layer;
+    const auto [a, b] = make_pictures(image_a, image_b, options);
     check_comparable(a, b);
     std::vector<float> errors;
     errors.reserve(a.pixels());

@@ -1,36 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "compare/estimate.h"
+#include "compare/channel_names.h"
 
 #include "plumb/base/error.h"
 
 #include <algorithm>
+#include <bit>
 
 #include <fmt/format.h>
 
 namespace plumb {
 
 namespace {
-
-std::optional<std::size_t> find_channel(const Image& image, const std::string& name)
-{
-    const std::vector<std::string>& names = image.channel_names();
-    const auto found = std::find(names.begin(), names.end(), name);
-    if (found == names.end()) return {};
-    return static_cast<std::size_t>(found - names.begin());
-}
-
-// The places of all of them, in their order; nothing if one is missing.
-std::optional<std::vector<std::size_t>> find_channels(const Image& image,
-                                                      const std::vector<std::string>& names)
-{
-    std::vector<std::size_t> places;
-    for (const std::string& name : names) {
-        const auto place = find_channel(image, name);
-        if (!place) return {};
-        places.push_back(*place);
-    }
-    return places;
-}
 
 std::vector<float> read_channels(const Image& image, const std::vector<std::size_t>& places)
 {
@@ -44,61 +25,54 @@ std::vector<float> read_channels(const Image& image, const std::vector<std::size
     return values;
 }
 
-std::optional<double> samples_per_pixel(const Image& image)
-{
-    for (const auto& [name, value] : image.metadata) {
-        if (name != "plumb:samplesPerPixel") continue;
-        if (const int* count = std::get_if<int>(&value); count && *count > 0) return *count;
-        if (const float* count = std::get_if<float>(&value); count && *count >= 1.f && std::isfinite(*count))
-            return static_cast<double>(*count);
-    }
-    return {};
-}
-
-const char* name_of(Side side)
-{
-    return side == Side::a ? "A" : "B";
-}
-
-// Red, green and blue in this order, others by their names.
-std::vector<std::string> channels_of_layer(const Image& image, Side side, const std::string& layer)
-{
-    std::vector<std::string> names;
-    std::vector<std::string> layers;
-    for (const std::string& name : image.channel_names()) {
-        const std::string of = name.substr(0, std::min(name.rfind('.'), name.size()));
-        if (of == layer && name != layer) names.push_back(name);
-        if (of != name && std::find(layers.begin(), layers.end(), of) == layers.end()) layers.push_back(of);
-    }
-    if (names.empty())
-        throw Error(fmt::format("{} has no layer '{}'; it has {}", name_of(side), layer,
-                                layers.empty() ? "none" : fmt::format("{}", fmt::join(layers, ", "))));
-    if (names.size() > 3)
-        throw Error(fmt::format("the layer '{}' of {} has {} channels, and at most 3 can be compared", layer,
-                                name_of(side), names.size()));
-    std::sort(names.begin(), names.end());
-    if (names.size() == 3 && names.front() == layer + ".B" && names.back() == layer + ".R")
-        std::swap(names.front(), names.back());
-    return names;
-}
-
-// Empty if there is no such entry.
-std::string header_text(const Image& image, std::string_view name)
-{
-    for (const auto& [key, value] : image.metadata) {
-        if (key != name) continue;
-        if (const auto* text = std::get_if<std::string>(&value)) return *text;
-        if (const int* number = std::get_if<int>(&value)) return std::to_string(*number);
-    }
-    return {};
-}
-
 // The hash is of the scene's files and of what the command line makes of them.
 std::string estimator_of(const Image& image)
 {
     const std::string inputs = header_text(image, "plumb:inputHash");
     const std::string integrator = header_text(image, "plumb:integrator");
     return inputs.empty() || integrator.empty() ? "" : inputs + " " + integrator;
+}
+
+// 10 bits behind the leading one, and zeros: what a 16-bit float holds without loss (its exponents aside).
+bool halves_hold(const std::vector<float>& values)
+{
+    return std::all_of(values.begin(), values.end(), [](float value) {
+        return !std::isfinite(value) || (std::bit_cast<std::uint32_t>(value) & 0x1fffu) == 0;
+    });
+}
+
+// From the variances of a sample, or from the means of the samples' squares.
+void to_variance_of_mean(Picture& picture, VarianceKind kind)
+{
+    const double samples = *picture.samples_per_pixel;
+    for (std::size_t i = 0; i < picture.variances.size(); ++i) {
+        double variance = static_cast<double>(picture.variances[i]);
+        if (kind == VarianceKind::second_moment)
+            variance = std::max(0.0, variance - sqr(static_cast<double>(picture.values[i]))) * samples /
+                       std::max(samples - 1.0, 1.0);
+        picture.variances[i] = static_cast<float>(variance / samples);
+    }
+}
+
+// The noise of red, green and blue may be correlated: the variance is at most the square of the weighted deviations' sum.
+void to_luminance(Picture& picture)
+{
+    const Color weights = {luminance(Color(1.f, 0.f, 0.f)), luminance(Color(0.f, 1.f, 0.f)),
+                           luminance(Color(0.f, 0.f, 1.f))};
+    std::vector<float> values;
+    std::vector<float> variances;
+    for (std::size_t i = 0; i < picture.pixels(); ++i) {
+        values.push_back(luminance(picture.color(i)));
+        if (picture.variances.empty()) continue;
+        const auto deviation = [&](std::size_t channel) {
+            return std::sqrt(picture.variances[3 * i + channel]);
+        };
+        const float sum = weights.r * deviation(0) + weights.g * deviation(1) + weights.b * deviation(2);
+        variances.push_back(sum * sum);
+    }
+    picture.channels = {"Y"};
+    picture.values = std::move(values);
+    picture.variances = std::move(variances);
 }
 
 std::string size_text(const Picture& picture)
@@ -133,41 +107,61 @@ bool Picture::variance_is_known(std::size_t pixel) const
     return true;
 }
 
-ImageFacts facts_of_header(const Image& image)
+Picture make_picture(const Image& image, Side side, const CompareSettings& options)
 {
-    return {samples_per_pixel(image), estimator_of(image), header_text(image, "plumb:seed")};
-}
-
-Picture make_picture(const Image& image, ImageFacts facts, Side side, const std::string& layer)
-{
+    const NoiseFacts facts = noise_facts(image, options);
+    const ChosenChannels chosen = choose_channels(image, side, options.layer, facts.samples.has_value());
     Picture picture;
-    picture.estimator = std::move(facts.estimator);
-    picture.seed = std::move(facts.seed);
     picture.window = image.data_window();
     picture.full_width = image.full_width();
     picture.full_height = image.full_height();
-    if (!layer.empty()) {
-        picture.channels = channels_of_layer(image, side, layer);
-        picture.values = read_channels(image, *find_channels(image, picture.channels));
+    picture.channels = chosen.names;
+    picture.values = read_channels(image, chosen.values);
+    picture.samples_per_pixel = facts.samples;
+    picture.estimator = estimator_of(image);
+    picture.seed = header_text(image, "plumb:seed");
+    picture.is_for_screens = !header_text(image, screen_mark).empty();
+    picture.is_luminance = chosen.is_luminance;
+    picture.is_half = halves_hold(picture.values);
+    if (chosen.variances.empty()) return picture;
+
+    const VarianceKind kind = variance_kind(chosen, facts, options);
+    if (kind != VarianceKind::of_mean && !facts.samples) {
+        picture.noise =
+            fmt::format("none ({} without a number of samples: pass --spp N)", chosen.variance_name);
         return picture;
     }
-    for (const std::vector<std::string>& names : {std::vector<std::string>{"R", "G", "B"}, {"Y"}}) {
-        const auto places = find_channels(image, names);
-        if (!places) continue;
-        picture.channels = names;
-        picture.values = read_channels(image, *places);
-        std::vector<std::string> variances;
-        for (const std::string& name : names) variances.push_back("variance." + name);
-        if (const auto found = find_channels(image, variances))
-            picture.variances = read_channels(image, *found);
-        if (const auto found = find_channels(image, {"contributing"}))
-            picture.contributing = read_channels(image, *found);
-        picture.samples_per_pixel = facts.samples_per_pixel;
-        return picture;
+    picture.variances = read_channels(image, chosen.variances);
+    if (kind != VarianceKind::of_mean) to_variance_of_mean(picture, kind);
+    if (chosen.contributing) picture.contributing = read_channels(image, {*chosen.contributing});
+    picture.noise = "variance channels";
+    if (facts.replicas) {
+        picture.noise = fmt::format("{} replicas", *facts.replicas);
+        picture.freedom = static_cast<double>(*facts.replicas - 1);
+        picture.inflation = facts.inflation;
+        picture.samples_per_pixel.reset();
+    } else if (kind != VarianceKind::of_mean) {
+        picture.noise = fmt::format("{} of {} samples", chosen.variance_name, *facts.samples);
     }
-    throw Error(
-        fmt::format("{} has neither the channels R, G and B nor Y, but {}; only these can be compared",
-                    name_of(side), fmt::join(image.channel_names(), ", ")));
+    return picture;
+}
+
+std::pair<Picture, Picture> make_pictures(const Image& image_a, const Image& image_b,
+                                          const CompareSettings& options)
+{
+    CompareSettings of_a = options;
+    CompareSettings of_b = options;
+    const bool a_has = has_layer(image_a, options.layer);
+    const bool b_has = has_layer(image_b, options.layer);
+    const bool is_of_colors = is_layer_of_colors(a_has ? image_a : image_b, options.layer);
+    if (!options.layer.empty() && a_has != b_has && is_of_colors && has_colors(a_has ? image_b : image_a))
+        (a_has ? of_b : of_a).layer.clear();
+    Picture a = make_picture(image_a, Side::a, of_a);
+    Picture b = make_picture(image_b, Side::b, of_b);
+    if (of_a.layer != of_b.layer) a.channels = b.channels = {"R", "G", "B"};
+    if (a.is_luminance && !b.is_luminance && b.channels.size() == 3) to_luminance(b);
+    if (b.is_luminance && !a.is_luminance && a.channels.size() == 3) to_luminance(a);
+    return {std::move(a), std::move(b)};
 }
 
 bool are_of_one_estimator(const Picture& a, const Picture& b)

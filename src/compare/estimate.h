@@ -16,8 +16,15 @@ struct Picture {
     std::vector<float> variances;      // likewise; empty: unknown
     std::vector<float> contributing;   // one a pixel; empty: unknown
     std::optional<double> samples_per_pixel;
-    std::string estimator; // Estimate's
-    std::string seed;      // of its random numbers; empty: unknown
+    // Degrees of freedom of a pixel's variance, where they are not samples_per_pixel - 1.
+    std::optional<double> freedom;
+    double inflation = 1.0;      // variance of a sum of pixels over the sum of their variances
+    std::string noise = "none";  // where the variances come from
+    bool is_for_screens = false; // 8-bit integers or the like: rounded, and clipped at 1
+    bool is_luminance = false;   // of an image that has colours as well
+    bool is_half = false;        // 16-bit floats can hold every value
+    std::string estimator;       // Estimate's
+    std::string seed;            // of its random numbers; empty: unknown
 
     std::size_t pixels() const { return values.size() / channels.size(); }
     bool is_exact = false; // has no noise, whatever the channels say
@@ -36,17 +43,12 @@ struct Picture {
     bool variance_is_known(std::size_t pixel) const;
 };
 
-// What is known of an image besides its channels.
-struct ImageFacts {
-    std::optional<double> samples_per_pixel;
-    std::string estimator;
-    std::string seed;
-};
-ImageFacts facts_of_header(const Image& image);
+// `side` names the picture in messages. Channels: channel_names.h; the layer, variance_of and samples of the options
+// count. Throws Error if they are not there.
+Picture make_picture(const Image& image, Side side, const CompareSettings& options);
 
-// `side` names the picture in messages. layer: empty, or the channels layer.* instead of R, G and B, or Y. Throws Error if they
-// are not there.
-Picture make_picture(const Image& image, ImageFacts facts, Side side, const std::string& layer = {});
+// Both, of which one may lack a layer of colours, or be in luminance only: then the other is taken likewise.
+std::pair<Picture, Picture> make_pictures(const Image& a, const Image& b, const CompareSettings& options);
 
 // The samples of both have one distribution.
 bool are_of_one_estimator(const Picture& a, const Picture& b);

@@ -10,17 +10,17 @@ constexpr double least_effective_samples = 32.0;
 constexpr double least_freedom = 16.0;
 constexpr double largest_share = 0.5;
 
-bool is_supported(const SideSums& sums, std::uint64_t pixels)
+bool is_supported(const SideSums& sums, std::uint64_t pixels, double inflation)
 {
     if (sums.effective_samples() < least_effective_samples) return false;
-    if (sums.degrees_of_freedom() < least_freedom) return false;
+    if (sums.degrees_of_freedom() < least_freedom * inflation) return false;
     return pixels == 1 || sums.largest <= largest_share * sums.variance;
 }
 
 } // namespace
 
 void SideSums::add(double pixel_mean, double pixel_variance, std::optional<double> samples,
-                   double contributing)
+                   double contributing, std::optional<double> freedom)
 {
     const double pixel_square = pixel_variance + (samples ? sqr(pixel_mean) / *samples : 0.0);
     mean += pixel_mean;
@@ -29,7 +29,9 @@ void SideSums::add(double pixel_mean, double pixel_variance, std::optional<doubl
     square += pixel_square;
     if (!(pixel_variance > 0.0)) return;
     const double effective = std::clamp(sqr(pixel_mean) / pixel_square, 1.0, std::max(1.0, contributing));
-    const double most = samples ? std::max(*samples - 1.0, 0.5) : static_cast<double>(infinity);
+    const double most = freedom   ? *freedom
+                        : samples ? std::max(*samples - 1.0, 0.5)
+                                  : static_cast<double>(infinity);
     inverse_freedom += sqr(pixel_variance) / std::min(most, 0.5 * effective);
 }
 
@@ -46,8 +48,10 @@ double SideSums::degrees_of_freedom() const
 
 bool is_supported(const UnitSums& sums, const Sampling& sampling)
 {
-    return sums.pixels > 0 && (sampling.a_is_exact || is_supported(sums.a, sums.pixels)) &&
-           (sampling.b_is_exact || is_supported(sums.b, sums.pixels));
+    const bool is_sum = sums.pixels > 1;
+    return sums.pixels > 0 &&
+           (sampling.a_is_exact || is_supported(sums.a, sums.pixels, is_sum ? sampling.inflation_a : 1.0)) &&
+           (sampling.b_is_exact || is_supported(sums.b, sums.pixels, is_sum ? sampling.inflation_b : 1.0));
 }
 
 Deviation deviation(const UnitSums& sums, const Sampling& sampling, const std::optional<LeastNoise>& least)
@@ -59,6 +63,10 @@ Deviation deviation(const UnitSums& sums, const Sampling& sampling, const std::o
     double variance_a = std::max(sums.a.variance, least ? pixels * least->a : 0.0);
     double variance_b = std::max(sums.b.variance, least ? pixels * least->b : 0.0);
 
+    if (sums.pixels > 1) {
+        variance_a *= sampling.inflation_a;
+        variance_b *= sampling.inflation_b;
+    }
     // Where both have the same expectation, it is more likely the larger mean: the noise of the smaller one, which
     // has missed light, would have been larger in proportion.
     if (mean_a > 0.0) variance_a *= sqr(larger / mean_a);
@@ -79,8 +87,13 @@ Deviation deviation(const UnitSums& sums, const Sampling& sampling, const std::o
     }
     const double variance = variance_a + variance_b;
     if (!sampling.noise_is_shared()) {
-        if (variance_a > 0.0) inverse_freedom += sqr(variance_a / variance) / sums.a.degrees_of_freedom();
-        if (variance_b > 0.0) inverse_freedom += sqr(variance_b / variance) / sums.b.degrees_of_freedom();
+        const bool is_sum = sums.pixels > 1;
+        if (variance_a > 0.0)
+            inverse_freedom += sqr(variance_a / variance) * (is_sum ? sampling.inflation_a : 1.0) /
+                               sums.a.degrees_of_freedom();
+        if (variance_b > 0.0)
+            inverse_freedom += sqr(variance_b / variance) * (is_sum ? sampling.inflation_b : 1.0) /
+                               sums.b.degrees_of_freedom();
     }
 
     // Welch's t [1], but for what rounding may have done.

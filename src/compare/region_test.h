@@ -16,8 +16,10 @@ struct SideSums {
     double square = 0.0;   // of variance + mean^2 / samples: the sum of the samples' squares, so to say
     double inverse_freedom = 0.0; // of variance^2 / degrees of freedom
 
-    // contributing: samples that were not black, or infinite.
-    void add(double pixel_mean, double pixel_variance, std::optional<double> samples, double contributing);
+    // contributing: samples that were not black, or infinite. freedom: degrees of freedom of the variance; absent:
+    // samples - 1.
+    void add(double pixel_mean, double pixel_variance, std::optional<double> samples, double contributing,
+             std::optional<double> freedom = {});
 
     // How many equal samples would have this spread [3]: few where few paths carry the light.
     double effective_samples() const;
@@ -39,6 +41,8 @@ struct Sampling {
     bool a_is_exact = false;
     bool b_is_exact = false;
     double rounding = 0.0;
+    double inflation_a = 1.0; // the noise of neighbours is correlated: of a sum's variance
+    double inflation_b = 1.0;
 
     // What one picture tells of the noise of a sample can be told of the other's.
     bool noise_is_shared() const { return samples_a && samples_b && !a_is_exact && !b_is_exact; }

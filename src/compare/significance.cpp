@@ -8,6 +8,7 @@
 #include "compare/significance.h"
 
 #include "compare/region_test.h"
+#include "compare/squares.h"
 #include "plumb/statistics/statistics.h"
 
 #include <array>
@@ -24,40 +25,13 @@ constexpr std::array surroundings = {16, 64};
 
 enum class State : std::uint8_t { usable, unusable, differs };
 
-// Squares of one size. size 0: one square, the whole.
-struct Squares {
-    int size = 0;
-    std::size_t columns = 1;
-    std::size_t rows = 1;
-
-    Squares(int side, const PixelRect& window) : size(side)
-    {
-        if (side == 0) return;
-        columns = static_cast<std::size_t>((window.width + side - 1) / side);
-        rows = static_cast<std::size_t>((window.height + side - 1) / side);
-    }
-    std::size_t count() const { return columns * rows; }
-    std::size_t index(int x, int y) const
-    {
-        if (size == 0) return 0;
-        return static_cast<std::size_t>(y / size) * columns + static_cast<std::size_t>(x / size);
-    }
-    PixelRect place(std::size_t square, const PixelRect& window) const
-    {
-        if (size == 0) return window;
-        const int x = static_cast<int>(square % columns) * size;
-        const int y = static_cast<int>(square / columns) * size;
-        return {window.x + x, window.y + y, std::min(size, window.width - x),
-                std::min(size, window.height - y)};
-    }
-};
-
 class Tester {
 public:
     Tester(const Picture& a, const Picture& b, const CompareSettings& options)
         : a_(a), b_(b), options_(options), states_(a.pixels(), State::usable), covered_(a.pixels(), false)
     {
-        sampling_ = {a.samples_per_pixel, b.samples_per_pixel, a.is_exact, b.is_exact, options.rounding};
+        sampling_ = {a.samples_per_pixel, b.samples_per_pixel, a.is_exact, b.is_exact,
+                     options.rounding,    a.inflation,         b.inflation};
         for (std::size_t i = 0; i < states_.size(); ++i)
             if (!a.is_finite(i) || !b.is_finite(i) || !a.variance_is_known(i) || !b.variance_is_known(i))
                 states_[i] = State::unusable;
@@ -111,9 +85,9 @@ private:
                 if (states_[i] != State::usable) continue;
                 UnitSums& unit = result[squares.index(x, y)];
                 unit.a.add(static_cast<double>(a_.value(i, channel)), a_.variance(i, channel),
-                           a_.samples_per_pixel, contributing(a_, i));
+                           a_.samples_per_pixel, contributing(a_, i), a_.freedom);
                 unit.b.add(static_cast<double>(b_.value(i, channel)), b_.variance(i, channel),
-                           b_.samples_per_pixel, contributing(b_, i));
+                           b_.samples_per_pixel, contributing(b_, i), b_.freedom);
                 ++unit.pixels;
             }
         }

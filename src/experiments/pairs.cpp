@@ -71,6 +71,7 @@ Agreement compare_pairs(std::vector<Estimate> estimates, std::vector<std::uint64
 {
     CompareSettings how = settings;
     how.flip = FlipMode::none;
+    how.alignment = false;
     how.significance /= static_cast<double>(estimates.size() * (estimates.size() - 1) / 2); // Bonferroni
     Agreement result{std::move(estimates), std::move(samples_of), {}, CompareOutcome::undecided};
     for (std::size_t a = 0; a < result.estimates.size(); ++a) {

@@ -108,6 +108,52 @@ void write_scale(JsonWriter& json, const Comparison& c, const ScaleTest& scale)
     json.end_object();
 }
 
+void write_difference_noise(JsonWriter& json, const Comparison& c)
+{
+    const Significance& s = c.significance;
+    if (!s.difference_noise) return;
+    const DifferenceNoise& noise = *s.difference_noise;
+    json.begin_object("difference_noise");
+    json.number("inflation", noise.inflation);
+    if (noise.reach)
+        json.number("correlated_pixels", *noise.reach);
+    else
+        json.null("correlated_pixels"); // farther than 10
+    if (noise.ratio)
+        json.number("ratio", *noise.ratio);
+    else
+        json.null("ratio");
+    if (noise.own)
+        json.number("own", *noise.own);
+    else
+        json.null("own");
+    json.boolean("hidden", noise.is_hidden);
+    json.end_object();
+    json.begin_array("sums_of_squares");
+    for (const SpreadTest& test : s.spread) {
+        json.begin_object();
+        json.integer("size", static_cast<std::uint64_t>(test.size));
+        json.boolean("tested", test.is_tested);
+        if (test.is_tested) {
+            json.text("channel", c.channels[static_cast<std::size_t>(test.channel)]);
+            json.number("ratio", test.ratio);
+            json.number("p", test.p);
+        }
+        json.end_object();
+    }
+    json.end_array();
+}
+
+void write_alignment(JsonWriter& json, std::string_view key, const std::optional<Alignment>& alignment)
+{
+    if (!alignment) return json.null(key);
+    json.begin_object(key);
+    json.text("change_of_a", alignment->change);
+    json.number("p", alignment->p);
+    json.integer("tried", static_cast<std::uint64_t>(alignment->tried));
+    json.end_object();
+}
+
 void write_significance(JsonWriter& json, const Comparison& c, const CompareSettings& options)
 {
     const Significance& s = c.significance;
@@ -115,6 +161,8 @@ void write_significance(JsonWriter& json, const Comparison& c, const CompareSett
     json.text("finding", finding_word(s.finding));
     if (!s.reason.empty()) json.text("reason", s.reason);
     json.number("significance", options.significance);
+    json.text("error_bars_a", c.noise_a);
+    json.text("error_bars_b", c.noise_b);
     if (!s.scales.empty()) {
         json.number("p", s.p);
         json.integer("pixels", s.pixels);
@@ -127,6 +175,8 @@ void write_significance(JsonWriter& json, const Comparison& c, const CompareSett
         json.begin_array("scales");
         for (const ScaleTest& scale : s.scales) write_scale(json, c, scale);
         json.end_array();
+        write_difference_noise(json, c);
+        if (s.difference_noise) write_alignment(json, "shift", s.shift);
     }
     json.end_object();
 }
@@ -160,16 +210,24 @@ void write_comparison(JsonWriter& json, const Comparison& comparison, const Comp
     write_corrected(json, comparison);
     write_non_finite(json, comparison.non_finite);
     write_significance(json, comparison, options);
+    write_alignment(json, "alignment", comparison.alignment);
     write_limits(json, comparison, options);
 }
 
 std::string comparison_json(const Comparison& comparison, const CompareSettings& options,
-                            const std::string& a, const std::string& b)
+                            const std::vector<std::string>& a, const std::vector<std::string>& b)
 {
     JsonWriter json;
     json.begin_object();
-    json.text("a", a);
-    json.text("b", b);
+    // One name, or those of the replicas.
+    const auto write_names = [&json](std::string_view key, const std::vector<std::string>& names) {
+        if (names.size() == 1) return json.text(key, names.front());
+        json.begin_array(key);
+        for (const std::string& name : names) json.text({}, name);
+        json.end_array();
+    };
+    write_names("a", a);
+    write_names("b", b);
     write_comparison(json, comparison, options);
     json.end_object();
     return std::move(json).finish();

@@ -75,9 +75,32 @@ std::string scale_text(const Comparison& c, const ScaleTest& scale)
         fmt::format("  {:<16} {:>8} {:>8} {:>8}", name, scale.units, scale.tested, scale.rejected);
     if (!scale.largest) return text + "\n";
     const UnitTest& test = *scale.largest;
-    return text + fmt::format("   {:<8.2g} {}: {} {} and {}\n", test.p, place_text(test.place),
+    return text + fmt::format("   {:<8} {}: {} {} and {}\n", p_text(test.p), place_text(test.place),
                               c.channels[static_cast<std::size_t>(test.channel)], number(test.mean_a),
                               number(test.mean_b));
+}
+
+std::string spread_text(const SpreadTest& test)
+{
+    return fmt::format(
+        "  {:<16} {:>8} {:>8} {:>8}   {:<8}{}\n", fmt::format("all of {0}x{0}", test.size), 1,
+        test.is_tested ? 1 : 0, "", test.is_tested ? p_text(test.p) : "",
+        test.is_tested ? fmt::format(" sum of the squared differences: {:.3g} times the noise", test.ratio)
+                       : "");
+}
+
+// Where the noise is known from, if one of the images does not say.
+std::string noise_text(const Comparison& c)
+{
+    std::string text = fmt::format("A {}, B {}", c.noise_a, c.noise_b);
+    if (!c.significance.difference_noise) return row("error bars", text);
+    const DifferenceNoise& noise = *c.significance.difference_noise;
+    text = row("error bars", text + ": the spread of A - B tells of the noise");
+    if (noise.reach && *noise.reach > 0)
+        text += row(
+            "", fmt::format("it is correlated over {} pixel{}: the variance of sums is {:.3g} times larger",
+                            *noise.reach, *noise.reach == 1 ? "" : "s", noise.inflation));
+    return text;
 }
 
 std::string finding_text(const Significance& s, const CompareSettings& options)
@@ -98,10 +121,12 @@ std::string significance_text(const Comparison& c, const CompareSettings& option
 {
     const Significance& s = c.significance;
     std::string text;
+    if (!s.scales.empty() && (c.noise_a != c.noise_b || s.difference_noise)) text += noise_text(c);
     if (!s.scales.empty()) {
         text += fmt::format("  {:<16} {:>8} {:>8} {:>8}   {:<8} {}\n", "tests of", "all", "tested", "differ",
                             "p", "largest difference: A and B");
         for (const ScaleTest& scale : s.scales) text += scale_text(c, scale);
+        for (const SpreadTest& test : s.spread) text += spread_text(test);
         if (s.detectable_bias)
             text +=
                 row("power",
@@ -109,6 +134,14 @@ std::string significance_text(const Comparison& c, const CompareSettings& option
                                 100.0 * *s.detectable_bias));
     }
     text += row("noise", finding_text(s, options));
+    if (s.shift && s.shift->p <= options.significance)
+        text += row("shift",
+                    fmt::format("A {} fits B better than A does, beyond the noise (p {}; {} shifts tried)",
+                                s.shift->change, p_text(s.shift->p), s.shift->tried));
+    if (c.alignment)
+        text +=
+            row("alignment", fmt::format("A {} agrees with B (p {}; {} changes tried)", c.alignment->change,
+                                         p_text(c.alignment->p), c.alignment->tried));
     return text;
 }
 
@@ -125,6 +158,11 @@ std::string threshold_text(const Comparison& c, const CompareSettings& options)
 }
 
 } // namespace
+
+std::string p_text(double p, int digits)
+{
+    return p < 1e-300 ? "< 1e-300" : fmt::format("{:.{}g}", p, digits);
+}
 
 std::string_view outcome_word(CompareOutcome outcome)
 {

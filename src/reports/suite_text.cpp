@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "plumb/reports/suite_report.h"
 
+#include "plumb/reports/comparison_report.h"
+
 #include "base/text.h"
 #include "base/text_file.h"
 #include "base/visible_text.h"
@@ -71,8 +73,8 @@ std::string reason_text(const SuiteResult& result)
         reasons.push_back(fmt::format("{} pixels are not finite in one of the images, the first is {},{}",
                                       broken.only_a + broken.only_b, broken.first->x, broken.first->y));
     if (noise.finding == Finding::different && noise.p < result.how.significance)
-        reasons.push_back(fmt::format("the difference exceeds the noise: p {:.2g}, {:.3g} % of the pixels",
-                                      noise.p,
+        reasons.push_back(fmt::format("the difference exceeds the noise: p {}, {:.3g} % of the pixels",
+                                      p_text(noise.p),
                                       100.0 * static_cast<double>(noise.differing) /
                                           static_cast<double>(std::max<std::uint64_t>(noise.pixels, 1))));
     if (result.verdict == SuiteVerdict::undecided && !noise.reason.empty()) reasons.push_back(noise.reason);

@@ -15,7 +15,7 @@ namespace {
 
 std::string run_text(const TestResult& result, const TestRun& run, TestType type)
 {
-    const std::string p = run.problem.empty() ? fmt::format("p {:.4g}", run.p) : run.problem;
+    const std::string p = run.problem.empty() ? "p " + p_text(run.p, 4) : run.problem;
     const std::string_view verdict = run.p >= result.level ? "passed" : "rejected";
     if (type == TestType::ttest)
         return fmt::format("mean {:.6g} +- {:.2g}, reference {:.6g}, {}: {}", run.mean,

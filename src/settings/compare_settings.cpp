@@ -68,6 +68,14 @@ std::span<const SettingRow<CompareSettings>> setting_rows<CompareSettings>()
          [](C& c, Name n, Text t) {
              c.exact = parse_word(n, t, {"A", "B"}) == "A" ? Side::a : Side::b;
          }},
+        {"variance-of", "WHAT",
+         "what the variance channels of other renderers are\nof: sample or mean (default: by their names)",
+         "the meaning of variance channels", Effect::verdict,
+         [](const C& c) { return word_text(c.variance_of, VarianceOf::sample, "sample", "mean"); },
+         [](C& c, Name n, Text t) {
+             c.variance_of =
+                 parse_word(n, t, {"sample", "mean"}) == "sample" ? VarianceOf::sample : VarianceOf::mean;
+         }},
         {"no-verdict", "", "ignore the noise: the limits of --max decide", "the use of the noise",
          Effect::verdict, [](const C& c) { return switch_text(!c.verdict); },
          [](C& c, Name n, Text t) { c.verdict = !parse_switch(n, t); }},

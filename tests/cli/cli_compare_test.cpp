@@ -90,7 +90,21 @@ TEST_CASE("compare broken files", "[cli][compare]")
 TEST_CASE("what compare is told decides", "[cli][compare]")
 {
     const PictureDirectory directory;
-    CHECK(directory.compare({"a.exr", "truth.exr"}).exit_code == 4);
+    const RunResult single = directory.compare({"a.exr", "truth.exr"});
+    CHECK(single.exit_code == 4);
+    CHECK_THAT(
+        single.out,
+        ContainsSubstring(
+            "  error bars       A variance channels, B none: the spread of A - B tells of the noise\n"));
+    CHECK_THAT(single.out,
+               ContainsSubstring(
+                   "  noise            undecided: B shows no noise of its own beside that of A, as after a "
+                   "denoiser; if it has none, pass --exact B\n"));
+    const RunResult png = directory.compare({"truth.png", "b.exr"});
+    CHECK(png.exit_code == 4);
+    CHECK_THAT(png.out, ContainsSubstring(
+                            "undecided: A is rounded to integers and clipped at 1, which changes its means; "
+                            "write it as .exr, or pass --exact A if it has no noise\n"));
     CHECK(directory.compare({"a.exr", "truth.exr", "--exact", "B"}).exit_code == 0);
     CHECK(directory.compare({"bright.exr", "truth.exr", "--exact", "B"}).exit_code == 3);
     CHECK(directory.compare({"bright.exr", "b.exr", "--no-verdict", "--max", "rmse=1,flip=0.9"}).exit_code ==
@@ -102,11 +116,61 @@ TEST_CASE("what compare is told decides", "[cli][compare]")
     CHECK_THAT(limit.out, ContainsSubstring("mae <= 0.01: exceeded\n"));
     CHECK_THAT(limit.out, ContainsSubstring("psnr >= 1: kept\n"));
     // 8 bits, decoded to linear: white is 1.
-    const RunResult png = directory.compare({"truth.png", "truth.png", "--flip", "none"});
-    CHECK(png.exit_code == 0);
-    CHECK_THAT(png.out, ContainsSubstring("mean luminance   1 and 1\n"));
-    CHECK(png.out.find("flip") == std::string::npos);
+    const RunResult screens = directory.compare({"truth.png", "truth.png", "--flip", "none"});
+    CHECK(screens.exit_code == 0);
+    CHECK_THAT(screens.out, ContainsSubstring("mean luminance   1 and 1\n"));
+    CHECK(screens.out.find("flip") == std::string::npos);
     CHECK_THAT(directory.compare({"truth.png", "truth.png"}).out, ContainsSubstring("(LDR)"));
+}
+
+TEST_CASE("compare takes replicas", "[cli][compare]")
+{
+    const PictureDirectory directory;
+    NoisyPicture how;
+    how.size = 32;
+    how.channels = {"R", "G", "B"};
+    how.knows_noise = false;
+    for (const int k : {1, 2, 3})
+        write_image(directory / ("r" + std::to_string(k) + ".exr"),
+                    noisy_picture(how, exponential_samples(), 20 + static_cast<std::uint64_t>(k)));
+    const RunResult same = directory.compare({"r1.exr", "r2.exr", "--against", "b.exr"});
+    INFO(same.out << same.err);
+    CHECK(same.exit_code == 0);
+    CHECK(same.out.starts_with("A r1.exr r2.exr\nB b.exr\n"));
+    CHECK_THAT(same.out, ContainsSubstring("  error bars       A 2 replicas, B variance channels\n"));
+    const RunResult both = directory.compare(
+        {"a.exr", "bright.exr", "--against", "r1.exr", "--against", "r2.exr", "--json", "-"});
+    CHECK_THAT(both.out, ContainsSubstring("\"error_bars_b\": \"2 replicas\""));
+
+    const RunResult identical = directory.compare({"r1.exr", "r2.exr", "r1.exr", "--against", "b.exr"});
+    CHECK(identical.exit_code == 1);
+    CHECK(identical.err == "error: A1 and A3 have the same pixels; replicas need different seeds\n");
+    const RunResult three = directory.compare({"r1.exr", "r2.exr", "b.exr"});
+    CHECK(three.exit_code == 2);
+    CHECK_THAT(three.err,
+               ContainsSubstring("3 images are given; pass the reference with --against FILE, the others are "
+                                 "then replicas of A"));
+    const RunResult one = directory.compare({"r1.exr"});
+    CHECK(one.exit_code == 2);
+    CHECK_THAT(one.err, ContainsSubstring("compare needs two images; 'renderer compare --help' shows how"));
+}
+
+TEST_CASE("a p-value is never 0, and compare names what agrees", "[cli][compare]")
+{
+    const PictureDirectory directory;
+    NoisyPicture how;
+    how.size = 64;
+    how.samples = 100000;
+    how.channels = {"R", "G", "B"};
+    write_image(directory / "c.exr", noisy_picture(how, rare_light(0.0, 0.5), 31));
+    how.bias = 2.0;
+    write_image(directory / "d.exr", noisy_picture(how, rare_light(0.0, 0.5), 32));
+    const RunResult result = directory.compare({"c.exr", "d.exr"});
+    INFO(result.out);
+    CHECK(result.exit_code == 3);
+    CHECK_THAT(result.out, ContainsSubstring("< 1e-300"));
+    CHECK_THAT(result.out, ContainsSubstring("  alignment        A times 2 agrees with B (p "));
+    CHECK_THAT(result.out, ContainsSubstring("27 changes tried)\n"));
 }
 
 TEST_CASE("compare writes a picture and JSON", "[cli][compare]")

@@ -133,7 +133,7 @@ TEST_CASE("pixels that are not finite differ unless both have them", "[unit][com
     b.pixel(2, 1)[0] = infinity;
     const Comparison both = compare(a, b);
     CHECK(both.non_finite.both == 1);
-    CHECK(both.outcome == CompareOutcome::undecided); // without noise or limits, not the same bits
+    CHECK(both.outcome == CompareOutcome::passes); // it is left out, and the others are equal
     b.pixel(2, 1)[0] = not_a_number;
     CHECK(compare(a, b).identical);
     CHECK(compare(a, b).outcome == CompareOutcome::passes);
@@ -145,11 +145,14 @@ TEST_CASE("limits decide where nobody knows the noise", "[unit][compare]")
     const Image b = grey(4, 4, 1.25f);
     CompareSettings options;
     const Comparison neither = compare(a, b, options);
-    CHECK(neither.significance.finding == Finding::not_asked);
-    CHECK(neither.outcome == CompareOutcome::undecided);
+    CHECK(neither.significance.finding == Finding::different); // and nothing looks like noise
+    CHECK(neither.outcome == CompareOutcome::differs);
     CHECK_FALSE(neither.corrected);
     options.thresholds = {{"rmse", 0.25}, {"mae", 0.3}};
-    CHECK(compare(a, b, options).outcome == CompareOutcome::passes);
+    const Comparison limited = compare(a, b, options);
+    CHECK(limited.outcome == CompareOutcome::passes);
+    CHECK(limited.significance.finding == Finding::not_asked);
+    CHECK(limited.significance.reason == "neither image has variance channels, and limits are given");
     options.thresholds.push_back({"mse", 0.06});
     const Comparison above = compare(a, b, options);
     CHECK(above.outcome == CompareOutcome::differs);
@@ -161,13 +164,17 @@ TEST_CASE("limits decide where nobody knows the noise", "[unit][compare]")
     CHECK(compare(a, b, options).outcome == CompareOutcome::differs);
 }
 
-TEST_CASE("noise on one side only needs the word that the other is exact", "[unit][compare]")
+TEST_CASE("an exact image has no noise", "[unit][compare]")
 {
     const NoisyPicture how;
     const Image a = noisy_picture(how, exponential_samples(), 1);
     const Image truth = true_picture(how);
     CompareSettings options = without_flip();
-    CHECK(compare(a, truth, options).outcome == CompareOutcome::undecided);
+    const Comparison single = compare(a, truth, options);
+    CHECK(single.outcome == CompareOutcome::undecided);
+    CHECK(single.significance.reason ==
+          "B shows no noise of its own beside that of A, as after a denoiser; if it has "
+          "none, pass --exact B");
     options.exact = Side::b;
     const Comparison exact = compare(a, truth, options);
     CHECK(exact.outcome == CompareOutcome::passes);

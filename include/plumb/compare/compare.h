@@ -11,7 +11,8 @@
 //
 // Conventions. A is the picture under test and B the reference; only relative errors and HDR-FLIP care. A picture has
 // channels R, G and B, or Y. What a picture knows of its noise are channels "variance.R", "variance.G", "variance.B"
-// (or "variance.Y"): the estimated variance of each pixel's mean, not a number where nobody knows. "contributing"
+// (or "variance.Y"): the estimated variance of each pixel's mean, not a number where nobody knows; of others' names see
+// src/compare/channel_names.h. Where an image has none, the spread of A - B tells of its noise. "contributing"
 // counts the samples of a pixel that were not black, and the header's plumb:samplesPerPixel all of them. Where
 // plumb:inputHash and plumb:integrator are equal, both are pictures of one estimator.
 
@@ -81,6 +82,33 @@ struct ScaleTest {
     std::optional<UnitTest> largest;   // the one with the smallest p
 };
 
+// The noise of d = a - b, where an image has no error bars.
+struct DifferenceNoise {
+    double inflation = 1.0; // variance of a sum of d over that of independent pixels
+    std::optional<int> reach =
+        0; // pixels over which it is correlated; nothing: too many for a verdict of "same"
+    std::optional<double> ratio; // variance of d over the known one of one image; nothing: both unknown
+    std::optional<double> own; // likewise of the other image's noise, as in most squares of 32x32 pixels
+    // It cannot be told from a smooth error: only what is far above any noise is a difference.
+    bool is_hidden = false;
+};
+
+// The squares of the sums of d of all squares of one size, together: finds what is small but everywhere.
+struct SpreadTest {
+    int size = 0; // of a side in pixels
+    bool is_tested = false;
+    int channel = 0;
+    double ratio = 1.0; // to what noise makes expect
+    double p = 1.0;     // as in UnitTest
+};
+
+// What A may be instead of a wrong image: a change that makes it agree with B.
+struct Alignment {
+    std::string change; // "mirrored left to right", "times 0.5"
+    double p = 1.0;     // of the same test, smallest of all
+    int tried = 0;      // changes
+};
+
 enum class Finding { not_asked, same, different, undecided };
 enum class CompareOutcome { passes, differs, undecided };
 
@@ -95,6 +123,9 @@ struct Significance {
     // Had A been too bright or too dark all over by this factor, the test of the whole picture would have found it with
     // 90 % probability. Nothing: the whole picture could not be tested.
     std::optional<double> detectable_bias;
+    std::optional<DifferenceNoise> difference_noise; // where an image has no error bars
+    std::vector<SpreadTest> spread;                  // likewise
+    std::optional<Alignment> shift; // likewise: A fits B better than it does as it is, beyond the noise
 };
 
 struct Comparison {
@@ -108,7 +139,10 @@ struct Comparison {
     std::vector<float> flip_map; // empty without FLIP
     NonFinite non_finite;
     std::optional<NoiseCorrected> corrected;
+    std::string noise_a; // where its error bars come from: "variance channels", "none"
+    std::string noise_b;
     Significance significance;
+    std::optional<Alignment> alignment; // of images that differ
     std::vector<Threshold> exceeded;
     CompareOutcome outcome = CompareOutcome::undecided;
 };
@@ -126,6 +160,14 @@ struct Estimate {
 Comparison compare(const Estimate& a, const Estimate& b, const CompareSettings& settings = {});
 // Of images whose headers say what is known of them.
 Comparison compare(const Image& a, const Image& b, const CompareSettings& settings = {});
+
+// Images of one scene that differ in their random numbers only, at least two: their mean, with variance channels from
+// their spread, of the colours and of every layer. `side` names them in messages. Throws Error if two have the same
+// pixels, or if their sizes or channels differ.
+Image mean_of_replicas(const std::vector<Image>& replicas, Side side);
+
+// Marks an image that a file for screens holds (PNG, JPEG): rounded to integers and clipped at 1.
+void mark_for_screens(Image& image);
 
 // The value of a metric by the name that thresholds use. Throws Error if there is none of that name.
 double metric_value(const Metrics& metrics, std::string_view name);

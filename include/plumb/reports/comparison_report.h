@@ -7,13 +7,17 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace plumb {
 
 std::string comparison_text(const Comparison& comparison, const CompareSettings& settings);
-// a, b: the names of the pictures.
+// a, b: the names of the images; several of one side are replicas.
 std::string comparison_json(const Comparison& comparison, const CompareSettings& settings,
-                            const std::string& a, const std::string& b);
+                            const std::vector<std::string>& a, const std::vector<std::string>& b);
+
+// "0.0123", or "< 1e-300" for what is smaller: a p-value is never 0. digits: significant ones.
+std::string p_text(double p, int digits = 2);
 
 std::string_view outcome_word(CompareOutcome outcome); // passes, differs, undecided
 int exit_code_of(CompareOutcome outcome);              // 0, 3 or 4

@@ -12,6 +12,7 @@
 namespace plumb {
 
 enum class Side { a, b };
+enum class VarianceOf { sample, mean };
 enum class FlipMode { none, ldr, hdr };
 
 // The picture fails if the metric is above the limit. Metrics: mse, rmse, relmse, mae, max, flip; psnr is a lower
@@ -27,8 +28,12 @@ struct CompareSettings {
     double significance = 0.01;     // the chance to say "differs" of two pictures with the same expectation
     bool verdict = true;            // look at the noise at all
     std::optional<Side> exact = {}; // this picture has no noise
-    double fail_percent = 0.0;      // of the pixels may differ, or stay undecided
-    double rounding = 1e-5;         // relative difference of means that floats may make; no setting of a user
+    std::optional<VarianceOf> variance_of =
+        {};                             // what others' variance channels are of; absent: by their names
+    std::optional<double> samples = {}; // per pixel, of images whose headers do not say
+    bool alignment = true;     // try whether a change makes an image that differs agree; no setting of a user
+    double fail_percent = 0.0; // of the pixels may differ, or stay undecided
+    double rounding = 1e-5;    // relative difference of means that floats may make; no setting of a user
     std::optional<FlipMode> flip = {}; // absent: hdr; for two files made for screens ldr; of a layer none
     std::vector<Threshold> thresholds = {};
     friend bool operator==(const CompareSettings&, const CompareSettings&) = default;
