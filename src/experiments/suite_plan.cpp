@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "plumb/experiments/suite.h"
+#include "plumb/experiments/suite_run.h"
 
 #include "base/shell_words.h"
 #include "settings/options_text.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "plumb/experiments/suite.h"
+#include "plumb/experiments/suite_run.h"
 
 #include "base/text.h"
 #include "base/text_file.h"

@@ -180,8 +180,8 @@ Report make_report(const RenderSession& session, Evidence evidence)
     const PixelRect& window = state.film.window();
     report.is_black = is_black(state.film);
     report.lights = scene.job.scene->emitters().size();
-    report.film_bytes = Film::bytes_per_pixel(state.film.layers()) * static_cast<std::uint64_t>(window.width) *
-                        static_cast<std::uint64_t>(window.height);
+    report.film_bytes = Film::bytes_per_pixel(state.film.layers()) *
+                        static_cast<std::uint64_t>(window.width) * static_cast<std::uint64_t>(window.height);
     report.parse_seconds = scene.parse_seconds;
     report.build_seconds = scene.build_seconds;
     report.render_seconds = state.seconds;

@@ -3,7 +3,7 @@
 
 // What became of a suite, for people and for other programs.
 
-#include "plumb/experiments/suite.h"
+#include "plumb/experiments/suite_run.h"
 
 #include <string>
 #include <string_view>

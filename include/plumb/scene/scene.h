@@ -24,8 +24,9 @@ struct SceneObject {
     std::shared_ptr<Shape> shape;
     std::shared_ptr<const Bsdf> bsdf;
     std::unique_ptr<Emitter> emitter;
-    std::string name;     // "mesh 'obj' (cbox.xml:12)", for people
-    std::string material = {}; // "floor", "bsdf 'diffuse' (cbox.xml:14)" likewise; objects with one BSDF have one name
+    std::string name; // "mesh 'obj' (cbox.xml:12)", for people
+    std::string material =
+        {}; // "floor", "bsdf 'diffuse' (cbox.xml:14)" likewise; objects with one BSDF have one name
 };
 
 // Objects that instances put into the scene, any number of times. Built once; they are in the scene nowhere else. No emitters.

@@ -85,7 +85,7 @@ int run(const Options& options)
         how.flip = FlipMode::none; // numbers, no colours
     else if (!how.flip)
         how.flip = is_low_dynamic_range(options.a) && is_low_dynamic_range(options.b) ? FlipMode::ldr
-                                                                                          : FlipMode::hdr;
+                                                                                      : FlipMode::hdr;
     const Comparison comparison = compare(a, b, how);
     if (!options.difference.empty())
         write_image(options.difference,
@@ -120,15 +120,16 @@ OptionTable<Options> table()
         {{Topic::output, "--diff", "FILE", "write the difference in false colours, with a scale", false,
           false},
          [](Options& o, std::string_view, const std::string& t) { o.difference = t; }}};
-    const OptionTable<Options> against = {
-        {{Topic::verdict, "--against", "FILE",
-          "the reference; all other images are replicas of A,\nwhich differ in their seeds; may be repeated for\n"
-          "replicas of B",
-          true, false},
-         [](Options& o, std::string_view n, const std::string& t) {
-             if (t.empty()) throw UsageError(fmt::format("{} needs a file name", n));
-             o.b.push_back(t);
-         }}};
+    const OptionTable<Options> against = {{{Topic::verdict, "--against", "FILE",
+                                            "the reference; all other images are replicas of A,\nwhich "
+                                            "differ in their seeds; may be repeated for\n"
+                                            "replicas of B",
+                                            true, false},
+                                           [](Options& o, std::string_view n, const std::string& t) {
+                                               if (t.empty())
+                                                   throw UsageError(fmt::format("{} needs a file name", n));
+                                               o.b.push_back(t);
+                                           }}};
     const OptionTable<Options> samples = {
         {{Topic::verdict, "--spp", "N", "samples per pixel of images whose headers do not say", false, false},
          [](Options& o, std::string_view n, const std::string& t) {

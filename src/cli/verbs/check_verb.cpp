@@ -29,8 +29,9 @@ std::string memory_text(const LoadedScene& scene)
     constexpr double picture_bytes = 7 * sizeof(float);
     const double later = static_cast<double>(size.x) * static_cast<double>(size.y) *
                          (static_cast<double>(Film::bytes_per_pixel()) + picture_bytes);
-    return fmt::format("memory: {:.0f} MB for the scene and the program, {:.0f} MB for film and image without AOVs",
-                       now / megabyte, later / megabyte);
+    return fmt::format(
+        "memory: {:.0f} MB for the scene and the program, {:.0f} MB for film and image without AOVs",
+        now / megabyte, later / megabyte);
 }
 
 int run(const Options& options)
