@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "plumb/reports/test_report.h"
+#include "plumb/reports/comparison_report.h"
 
 #include "base/json.h"
 #include "base/text.h"
