@@ -192,7 +192,7 @@ TEST_CASE("names that start with other names, and values before their use", "[un
 TEST_CASE("includes of scenes and of objects", "[unit][mitsuba]")
 {
     CHECK(read("<include filename='list.xml'/><include filename='grey.xml' name='n'/>" + rest).text ==
-          "<shape type='sphere'/>");
+          "<shape type='sphere'><boolean name='flipU' value='true'/></shape>");
     const Read inside =
         read("<default name='g' value='.5'/><shape type='rectangle'><include filename='grey.xml'/></shape>" +
              rest);
@@ -244,8 +244,8 @@ TEST_CASE("what is missing in a Mitsuba scene", "[unit][mitsuba]")
           "a.xml:1:1: error: the scene has no <sensor>; write <sensor type=\"perspective\"> ... </sensor>\n");
     // A lamp is black, unless it has a bsdf.
     CHECK(read("<shape type='sphere'><emitter type='area'/></shape>" + rest).text ==
-          "<shape type='sphere'><emitter type='area'/><bsdf type='diffuse'><color name='albedo' value='0 0 "
-          "0'/></bsdf><boolean name='flipU' value='true'/></shape>");
+          "<shape type='sphere'><emitter type='area'/><boolean name='flipU' value='true'/>"
+          "<bsdf type='diffuse'><color name='albedo' value='0 0 0'/></bsdf></shape>");
     CHECK(read("<shape type='sphere'><emitter type='area'/><bsdf type='diffuse'/></shape>" + rest).text ==
           "<shape type='sphere'><emitter type='area'/><bsdf type='diffuse'/>"
           "<boolean name='flipU' value='true'/></shape>");
