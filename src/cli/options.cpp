@@ -86,6 +86,18 @@ void check_outputs(const Options& options)
     if (!options.part && !options.checkpoint.file.empty()) check(options.checkpoint.file, "--checkpoint");
 }
 
+// A and the reference, or the replicas of A and those of a reference that --against names.
+void check_images(const Options& options)
+{
+    if (!options.compare.b.empty() || options.subjects.size() == 2) return;
+    if (options.subjects.size() < 2)
+        throw UsageError("compare needs two images; 'renderer compare --help' shows how");
+    throw UsageError(
+        fmt::format("{} images are given; pass the reference with --against FILE, the others are then "
+                    "replicas of A",
+                    options.subjects.size()));
+}
+
 // A part is no picture yet: its output is the state file. What goes with what.
 void settle_state_file(Options& options)
 {
@@ -206,6 +218,7 @@ Options parse_options(std::vector<std::string> words)
                              ? fmt::format("no {} given; 'renderer --help' shows how", verb.subject)
                              : fmt::format("{} needs two {}s; 'renderer {} --help' shows how", verb.name,
                                            verb.subject, verb.name));
+    if (options.verb == Verb::compare) check_images(options);
     if (options.verb == Verb::rerun && options.outputs.empty())
         throw UsageError("rerun needs -o,--output FILE; it has no default output");
     if (options.verb == Verb::replay)

@@ -45,13 +45,6 @@ CompareRequest compare_request(const Options& options)
     CompareRequest request = options.compare;
     request.a = options.subjects;
     if (request.b.empty()) {
-        if (request.a.size() > 2)
-            throw UsageError(
-                fmt::format("{} images are given; pass the reference with --against FILE, the others "
-                            "are then replicas of A",
-                            request.a.size()));
-        if (request.a.size() < 2)
-            throw UsageError("compare needs two images; 'renderer compare --help' shows how");
         request.b = {request.a.back()};
         request.a.pop_back();
     }
