@@ -85,7 +85,7 @@ struct DifferenceNoise {
     std::optional<int> reach =
         0; // pixels over which it is correlated; nothing: too many for a verdict of "same"
     std::optional<double> ratio; // variance of d over the known one of one image; nothing: both unknown
-    std::optional<double> own; // likewise of the other image's noise, as in most squares of 32x32 pixels
+    std::optional<double> own;   // likewise of the other image's noise, as in most squares of 32x32 pixels
     // It cannot be told from a smooth error: only what is far above any noise is a difference.
     bool is_hidden = false;
 };
