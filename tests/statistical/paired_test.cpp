@@ -219,7 +219,7 @@ TEST_CASE("the verdict on a single image keeps its error rate", "[statistical][c
         for (const int size : {16, 64, 128})
             for (const SampleKind& kind : {normal_samples(0.3), exponential_samples(), hits(1e-2)})
                 trials.push_back({.kind = kind, .size = size, .filter = filter});
-    check_false_alarms(trials, 60);
+    check_false_alarms(trials, 40);
 }
 
 TEST_CASE("a single image of independent noise is decided", "[statistical][compare]")

@@ -43,6 +43,7 @@ const Examples compare_examples = {
     {"significance", {"0.05", "1e-09"}},
     {"layer", {"normal"}},
     {"exact", {"A", "B"}},
+    {"variance-of", {"sample", "mean"}},
     {"no-verdict", {"true"}},
     {"fail-percent", {"0.1", "100"}},
     {"max", {"rmse=0.1,flip=1,psnr=-30"}},
