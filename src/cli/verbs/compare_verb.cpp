@@ -131,7 +131,8 @@ OptionTable<Options> table()
                                                o.b.push_back(t);
                                            }}};
     const OptionTable<Options> samples = {
-        {{Topic::verdict, "--spp", "N", "samples per pixel of images whose headers do not say", false, false},
+        {{Topic::verdict, "--spp", "COUNT", "samples per pixel of images whose headers do not say", false,
+          false},
          [](Options& o, std::string_view n, const std::string& t) {
              o.settings.samples = parse_double(n, t, 1.0, 1e15);
          }}};
