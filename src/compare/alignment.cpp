@@ -75,7 +75,7 @@ double decode_srgb(double value)
 }
 
 template <class Decode>
-void decode(Picture& picture, const Decode& curve)
+void decode(Picture& picture, Decode curve)
 {
     for (float& value : picture.values)
         value = std::copysign(static_cast<float>(curve(std::abs(static_cast<double>(value)))), value);
@@ -83,7 +83,7 @@ void decode(Picture& picture, const Decode& curve)
 }
 
 template <class Decode>
-Change decoded(const std::string& text, bool of_a, const Decode& curve)
+Change decoded(const std::string& text, bool of_a, Decode curve)
 {
     return {text, [of_a, curve](const Picture& a, const Picture& b) {
                 Pair pair{a, b};
