@@ -91,10 +91,9 @@ struct SceneFile::Impl {
           choice(is_mitsuba ? mitsuba_choice(expansion.root, wishes, diagnostics)
                             : choose_dialect(expansion.root, wishes, diagnostics)),
           root(arranged()),
-          context{diagnostics, choice.dialect, settings.lenient, {}},
+          context{diagnostics, choice.dialect, settings.lenient, {}, 0, nullptr, 0, words},
           builder(root, context)
     {
-        context.vocabulary = words;
         of_tree = diagnostics;
         shared_texture_bytes = context.texture_bytes;
         seconds = seconds_since(start);

@@ -135,9 +135,6 @@ private:
             return name.kind == kind && name.theirs == type;
         });
         if (row) {
-            if (is_awaited(kind, row->ours, ""))
-                return refuse(element, at,
-                              fmt::format("{} '{}' is not supported yet", element.written_tag(), type));
             if (!row->warning.empty()) diagnostics_.warning(at, std::string(row->warning));
             if (row->ours != type) rename_attribute_value(element, "type", row->ours);
             return Outcome::fine;
@@ -149,14 +146,6 @@ private:
                 if (name.kind == kind) known.push_back(name.theirs);
         return refuse(element, at,
                       fmt::format("unknown {} '{}'{}", element.written_tag(), type, way_out(type, known)));
-    }
-
-    // type: ours.
-    bool is_awaited(std::string_view kind, std::string_view type, std::string_view parameter) const
-    {
-        return find_row(words_, &Vocabulary::awaited, [&](const Awaited& row) {
-                   return row.kind == kind && row.type == type && row.parameter == parameter;
-               }) != nullptr;
     }
 
     bool rename_parameter(Element& child, const std::string& kind, const std::string& type)
@@ -174,12 +163,6 @@ private:
         if (const ParamName* row = find_row(words_, &Vocabulary::params, [&](const ParamName& param) {
                 return fits(param, kind, type) && param.theirs == name;
             })) {
-            if (is_awaited(kind, our_type(words_, kind, type), row->ours)) {
-                diagnostics_.add(options_.lenient ? Severity::warning : Severity::error,
-                                 child.value_place(*attribute),
-                                 fmt::format("'{}' of {} '{}' is not supported yet", name, kind, type));
-                return false;
-            }
             if (row->ours != name) rename_attribute_value(child, "name", row->ours);
             return child.tag == "texture" || child.tag == "ref" || !row->convert ||
                    row->convert(child, diagnostics_);
@@ -232,9 +215,7 @@ private:
     {
         std::vector<std::string_view> done;
         const auto apply = [&](const Preset& row) {
-            if (!fits(row, kind, type) || is_awaited(kind, element.value("type"), row.name) ||
-                std::find(done.begin(), done.end(), row.name) != done.end())
-                return;
+            if (!fits(row, kind, type) || std::find(done.begin(), done.end(), row.name) != done.end()) return;
             done.push_back(row.name);
             if (!row.unless.empty() && gives(element, row.unless)) return;
             if (row.replaces)

@@ -43,11 +43,6 @@ struct Ignored {
     std::string_view warning = {};
 };
 
-// A type of ours, or a parameter of it: files that need it are refused, and its presets are left out.
-struct Awaited {
-    std::string_view kind, type, parameter = {};
-};
-
 struct Vocabulary {
     std::string_view name;
     std::span<const TagName> tags = {};
@@ -64,8 +59,6 @@ struct Vocabulary {
     // What is somewhere else, or nowhere, in files of this family; after all else.
     void (*order)(Element& root, Diagnostics& diagnostics) = nullptr;
     const Vocabulary* base = nullptr; // where to look next
-    // What rows name and plugins do not have yet. A test finds those that are no longer awaited.
-    std::span<const Awaited> awaited = {};
 };
 
 struct ArrangeOptions {

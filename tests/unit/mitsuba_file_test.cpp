@@ -6,24 +6,15 @@
 #include "scene_file/mitsuba_words.h"
 #include "scene_file/spectra.h"
 #include "support/catch.h"
+#include "support/element_text.h"
 #include "support/temp_directory.h"
 
 #include <fmt/format.h>
 
 using namespace plumb;
+using namespace plumb::test;
 
 namespace {
-
-std::string text_of(const Element& element)
-{
-    std::string text = "<" + element.tag;
-    for (const Attribute& attribute : element.attributes)
-        text += fmt::format(" {}='{}'", attribute.name, attribute.value);
-    if (element.children.empty()) return text + "/>";
-    text += ">";
-    for (const Element& child : element.children) text += text_of(child);
-    return text + fmt::format("</{}>", element.tag);
-}
 
 struct Read {
     std::string text;     // of what stands in the scene, in our own words
@@ -234,6 +225,26 @@ TEST_CASE("what Mitsuba's files need and Plumb has not is refused in their words
     CHECK_THAT(
         lenient.messages,
         ContainsSubstring("warning: shape 'sdfgrid' is not supported; export it as a mesh; it is left out"));
+}
+
+TEST_CASE("what is shared speaks the words of the file, too", "[unit][mitsuba]")
+{
+    const TempDirectory directory;
+    const auto error = [&](const std::string& inner) {
+        const auto file =
+            directory.write("shared.xml", "<scene version='3.0.0'>" + rest + inner + "</scene>");
+        try {
+            SceneFile(file, {}).load({}, {});
+        } catch (const SceneError& refused) {
+            return refused.diagnostics().front().message;
+        }
+        return std::string("no error");
+    };
+    const std::string inside = "<float name='int_ior' value='-3'/></bsdf>";
+    for (const std::string& scene :
+         {"<shape type='sphere'><bsdf type='dielectric'>" + inside + "</shape>",
+          "<bsdf type='dielectric' id='g'>" + inside + "<shape type='sphere'><ref id='g'/></shape>"})
+        CHECK(error(scene) == "int_ior must be in [0.01, 100], not -3");
 }
 
 TEST_CASE("what is missing in a Mitsuba scene", "[unit][mitsuba]")

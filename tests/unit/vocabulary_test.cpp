@@ -5,24 +5,14 @@
 #include "scene_file/mitsuba_words.h"
 #include "scene_file/nori_words.h"
 #include "support/catch.h"
+#include "support/element_text.h"
 
 #include <fmt/format.h>
 
 using namespace plumb;
+using namespace plumb::test;
 
 namespace {
-
-// The tree as text, without places.
-std::string text_of(const Element& element)
-{
-    std::string text = "<" + element.tag;
-    for (const Attribute& attribute : element.attributes)
-        text += fmt::format(" {}='{}'", attribute.name, attribute.value);
-    if (element.children.empty()) return text + "/>";
-    text += ">";
-    for (const Element& child : element.children) text += text_of(child);
-    return text + fmt::format("</{}>", element.tag);
-}
 
 // What stands in the scene, in our own words.
 std::string arranged(const std::string& inner, DialectName name, const DialectWishes& wishes = {})
@@ -77,14 +67,6 @@ bool has_parameter(const Vocabulary& words, std::string_view kind, std::string_v
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-bool is_awaited(const Vocabulary& words, std::string_view kind, std::string_view type, std::string_view name)
-{
-    return std::any_of(words.awaited.begin(), words.awaited.end(), [&](const Awaited& row) {
-        return row.kind == kind && (row.type == type || type.empty()) &&
-               (row.parameter.empty() || row.parameter == name);
-    });
-}
-
 } // namespace
 
 TEST_CASE("what the rows of a dialect name is in the catalog", "[unit][vocabulary]")
@@ -98,30 +80,17 @@ TEST_CASE("what the rows of a dialect name is in the catalog", "[unit][vocabular
                 CAPTURE(row.kind, row.theirs, row.ours);
                 if (row.kind == "film" || row.ours == "moment" || row.ours == "aov")
                     continue; // order_mitsuba()
-                CHECK((has_type(row.kind, row.ours) || is_awaited(*top, row.kind, row.ours, "")));
+                CHECK(has_type(row.kind, row.ours));
             }
             const auto check_parameter = [&](std::string_view kind, std::string_view type,
                                              std::string_view name) {
                 CAPTURE(kind, type, name);
-                CHECK((has_parameter(*top, kind, type, name) ||
-                       is_awaited(*top, kind, type.empty() ? type : our_type(*top, kind, type), name)));
+                CHECK(has_parameter(*top, kind, type, name));
             };
             for (const ParamName& row : words->params)
                 if (row.theirs != "*") check_parameter(row.kind, row.type, row.ours);
             for (const Preset& row : words->presets) check_parameter(row.kind, row.type, row.name);
         }
-    // Nothing is waited for that is there.
-    for (const Awaited& row : mitsuba3().awaited) {
-        CAPTURE(row.kind, row.type, row.parameter);
-        if (row.parameter.empty()) {
-            CHECK((!has_type(row.kind, row.type) || row.type == "roughconductor" ||
-                   row.type == "roughdielectric"));
-        } else {
-            const auto names = row.kind == "film" ? parameters_of("camera", "perspective")
-                                                  : parameters_of(row.kind, row.type);
-            CHECK(std::find(names.begin(), names.end(), row.parameter) == names.end());
-        }
-    }
 }
 
 TEST_CASE("courses differ by presets", "[unit][vocabulary]")
