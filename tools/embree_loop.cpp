@@ -16,6 +16,7 @@
 #include "plumb/scene/instruction_set.h"
 #include "plumb/scene/scene.h"
 #include "plumb/scene_file/scene_file.h"
+#include "scene/accel_rays.h"
 
 #include <atomic>
 #include <charconv>
@@ -25,12 +26,6 @@
 #include <string>
 #include <thread>
 #include <vector>
-
-#if PLUMB_EMBREE_MAJOR >= 4
-#include <embree4/rtcore.h>
-#else
-#include <embree3/rtcore.h>
-#endif
 
 namespace {
 
@@ -90,33 +85,14 @@ struct Loop {
 
     RTCRayHit trace(const Vec3f& origin, const Vec3f& direction) const
     {
-        RTCRayHit hit;
-        hit.ray = {origin.x,    origin.y, origin.z, epsilon, direction.x, direction.y,
-                   direction.z, 0.f,      infinity, ~0u,     0,           0};
-        hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-        hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-#if PLUMB_EMBREE_MAJOR >= 4
-        rtcIntersect1(scene, &hit);
-#else
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        rtcIntersect1(scene, &context, &hit);
-#endif
-        return hit;
+        return intersect_scene(scene, {origin.x, origin.y, origin.z, epsilon, direction.x, direction.y,
+                                       direction.z, 0.f, infinity, ~0u, 0, 0});
     }
 
     bool occluded(const Vec3f& origin, const Vec3f& direction) const
     {
-        RTCRay ray{origin.x,    origin.y, origin.z,      epsilon, direction.x, direction.y,
-                   direction.z, 0.f,      1.f - epsilon, ~0u,     0,           0};
-#if PLUMB_EMBREE_MAJOR >= 4
-        rtcOccluded1(scene, &ray);
-#else
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        rtcOccluded1(scene, &context, &ray);
-#endif
-        return ray.tfar < 0.f;
+        return is_occluded(scene, {origin.x, origin.y, origin.z, epsilon, direction.x, direction.y,
+                                   direction.z, 0.f, 1.f - epsilon, ~0u, 0, 0});
     }
 
     float path(Vec3f origin, Vec3f direction, Random& random, std::uint64_t& count) const

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 
+#include "emitters/point_sample.h"
 #include "model/plugin.h"
 #include "plumb/model/emitter.h"
 
@@ -29,20 +30,7 @@ public:
         const Vec3d towards = Vec3d(position_) - Vec3d(receiver.position);
         const double distance2 = length_squared(towards);
         if (!(distance2 > 0.0) || !receiver.counts_light_from(Vec3f(towards))) return std::nullopt;
-        const double distance = std::sqrt(distance2);
-        const double falloff = 1.0 / distance2;
-
-        EmitterSample sample;
-        sample.wi = Vec3f(towards / distance);
-        sample.distance = static_cast<float>(distance);
-        sample.position = position_;
-        // In double: at a distance of 1e-20, 1 / distance^2 is no float, but its product with the intensity may be.
-        sample.radiance =
-            Color(static_cast<float>(intensity_.r * falloff), static_cast<float>(intensity_.g * falloff),
-                  static_cast<float>(intensity_.b * falloff));
-        sample.pdf = 1.f;
-        sample.is_delta = true;
-        return sample;
+        return sample_of_point(position_, towards, distance2, intensity_, 1.0 / distance2);
     }
 
     EmitterValue evaluate(const Vec3f&, const Vec3f&, const SurfacePoint*, Measure) const override

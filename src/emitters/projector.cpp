@@ -2,6 +2,7 @@
 
 #include "cameras/field_of_view.h"
 #include "emitters/aim.h"
+#include "emitters/point_sample.h"
 #include "model/plugin.h"
 #include "plumb/math/elementary.h"
 #include "plumb/model/emitter.h"
@@ -65,20 +66,11 @@ public:
         const Vec2f uv(static_cast<float>(0.5 - 0.5 * x / view_.half_width),
                        static_cast<float>(flip_v_ ? 1.0 - v : v));
         // The intensity pi irradiance / cos^3 lights a wall across the axis evenly.
-        const double distance = std::sqrt(distance2);
         const double cosine = local.z / length(local);
         const double factor = pi_d * scale_ / (distance2 * cosine * cosine * cosine);
-        const Color color = irradiance_->color(uv);
-
-        EmitterSample sample;
-        sample.wi = Vec3f(towards / distance);
-        sample.distance = static_cast<float>(distance);
-        sample.position = Vec3f(position_);
-        sample.radiance = Color(static_cast<float>(color.r * factor), static_cast<float>(color.g * factor),
-                                static_cast<float>(color.b * factor));
+        const EmitterSample sample =
+            sample_of_point(Vec3f(position_), towards, distance2, irradiance_->color(uv), factor);
         if (sample.radiance.is_black()) return std::nullopt;
-        sample.pdf = 1.f;
-        sample.is_delta = true;
         return sample;
     }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "emitters/aim.h"
+#include "emitters/point_sample.h"
 #include "model/plugin.h"
 #include "plumb/math/elementary.h"
 #include "plumb/model/emitter.h"
@@ -58,19 +59,7 @@ public:
         if (!(distance2 > 0.0) || !receiver.counts_light_from(Vec3f(towards))) return std::nullopt;
         const Color intensity = intensity_along(to_local_.vector(-towards));
         if (intensity.is_black()) return std::nullopt;
-        const double distance = std::sqrt(distance2);
-        const double falloff = 1.0 / distance2; // in double, as for point lights
-
-        EmitterSample sample;
-        sample.wi = Vec3f(towards / distance);
-        sample.distance = static_cast<float>(distance);
-        sample.position = Vec3f(position_);
-        sample.radiance =
-            Color(static_cast<float>(intensity.r * falloff), static_cast<float>(intensity.g * falloff),
-                  static_cast<float>(intensity.b * falloff));
-        sample.pdf = 1.f;
-        sample.is_delta = true;
-        return sample;
+        return sample_of_point(Vec3f(position_), towards, distance2, intensity, 1.0 / distance2);
     }
 
     EmitterValue evaluate(const Vec3f&, const Vec3f&, const SurfacePoint*, Measure) const override

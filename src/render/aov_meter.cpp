@@ -7,6 +7,7 @@
 #include "plumb/scene/tracer.h"
 
 #include <algorithm>
+#include <unordered_set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -66,15 +67,6 @@ std::vector<NamedRow> rows_of(std::span<const std::string> names)
     return rows;
 }
 
-// Those of the scene, then those of its groups.
-template <class Action>
-void for_each_object(const Scene& scene, const Action& action)
-{
-    for (const SceneObject& object : scene.objects()) action(object);
-    for (const Group* group : scene.groups())
-        for (const SceneObject& object : group->objects()) action(object);
-}
-
 void put(double* out, const Vec3d& v)
 {
     out[0] = v.x;
@@ -101,9 +93,9 @@ std::vector<std::string> aov_names()
 std::vector<std::string> material_names(const Scene& scene)
 {
     std::vector<std::string> names;
-    for_each_object(scene, [&](const SceneObject& object) {
-        if (std::find(names.begin(), names.end(), object.material) == names.end())
-            names.push_back(object.material);
+    std::unordered_set<std::string_view> known; // of the objects
+    scene.for_each_object([&](const SceneObject& object) {
+        if (known.insert(object.material).second) names.push_back(object.material);
     });
     return names;
 }
@@ -126,10 +118,10 @@ AovView::AovView(const Scene& scene, const Camera& camera) : scene_(scene)
     put(forward_, normalize(camera.to_world().vector(Vec3d(0.0, 0.0, 1.0))));
     for (const SceneObject& object : scene.objects())
         objects_.emplace(object.shape.get(), static_cast<std::uint32_t>(objects_.size() + 1));
-    const std::vector<std::string> names = material_names(scene);
-    for_each_object(scene, [&](const SceneObject& object) {
-        const auto at = std::find(names.begin(), names.end(), object.material) - names.begin();
-        materials_.emplace(object.bsdf.get(), static_cast<std::uint32_t>(at + 1));
+    std::unordered_map<std::string_view, std::uint32_t> ids; // of names that the objects have
+    scene.for_each_object([&](const SceneObject& object) {
+        const auto named = ids.emplace(object.material, static_cast<std::uint32_t>(ids.size() + 1)).first;
+        materials_.emplace(object.bsdf.get(), named->second);
     });
 }
 

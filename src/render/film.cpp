@@ -20,11 +20,6 @@ namespace {
 constexpr double unit = fixed_unit;
 constexpr double units_per_one = fixed_units_per_one;
 
-// A sample from here on has its square in the table of large ones. Below, 2^26 squares add up to less than 2^62.
-constexpr float large = 0x1p18f;
-constexpr double large_unit = 0x1p-20;
-constexpr double large_units_per_one = 0x1p20;
-
 } // namespace
 
 // Threads share it; integer sums make their order irrelevant.
@@ -35,14 +30,13 @@ struct Film::LargeSquares {
     void add(std::size_t pixel, int channel, double square)
     {
         const std::lock_guard lock(mutex);
-        of_pixel[pixel][static_cast<std::size_t>(channel)] += to_fixed(square * large_units_per_one);
+        of_pixel[pixel][static_cast<std::size_t>(channel)] += to_fixed(square / fixed_large_unit);
     }
 
-    double sum(std::size_t pixel, int channel) const
+    FixedSum sum(std::size_t pixel, int channel) const
     {
         const auto found = of_pixel.find(pixel);
-        if (found == of_pixel.end()) return 0.0;
-        return static_cast<double>(found->second[static_cast<std::size_t>(channel)]) * large_unit;
+        return found == of_pixel.end() ? 0 : found->second[static_cast<std::size_t>(channel)];
     }
 };
 
@@ -119,7 +113,7 @@ void Film::add_channel(std::size_t pixel, int channel, float value)
     Pixel& p = pixels_[pixel];
     const double x = value; // its square is exact
     p.sum[channel] += to_fixed(x * units_per_one);
-    if (std::abs(value) < large) [[likely]]
+    if (std::abs(value) < fixed_large_value) [[likely]]
         p.squares[channel] += to_fixed(x * x * units_per_one);
     else
         large_squares_->add(pixel, channel, x * x);
@@ -145,10 +139,8 @@ double Film::variance_of_mean(std::size_t pixel, int channel) const
 {
     const Pixel& p = pixels_[pixel];
     if (p.count < 2) return std::numeric_limits<double>::quiet_NaN();
-    const double n = p.count;
-    const double mean_square =
-        (static_cast<double>(p.squares[channel]) * unit + large_squares_->sum(pixel, channel)) / n;
-    return std::max(mean_square - sqr(mean(pixel, channel)), 0.0) / (n - 1.0);
+    return plumb::variance_of_mean(p.sum[channel], p.squares[channel], large_squares_->sum(pixel, channel),
+                                   p.count);
 }
 
 Color Film::variance_of_mean(Vec2i pixel) const

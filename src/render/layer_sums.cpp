@@ -13,7 +13,6 @@
 namespace plumb {
 namespace {
 
-// Of a pixel.
 // A component of a variance has these sums.
 enum VarianceSum : std::size_t { values, squares, large_squares, variance_sums };
 
@@ -21,15 +20,13 @@ constexpr const char* sum_names[variance_sums] = {"layer", "squares", "largeSqua
 // The largest that one sample adds to each, in units of 2^96.
 constexpr double high_word_per_sample[variance_sums] = {0x1p5, 0x1p4, 0x1p-2};
 
-constexpr float large = 0x1p18f; // as in Film
-constexpr double large_unit = 0x1p-20;
-
 std::size_t sums_per_component(LayerKind kind)
 {
     if (is_variance(kind)) return variance_sums;
     return kind == LayerKind::id ? 0 : 1;
 }
 
+// Of a pixel.
 struct Sizes {
     std::size_t sums = 0;
     std::size_t hits = 0;
@@ -52,23 +49,12 @@ bool is_in_range(float value)
     return std::abs(value) < film_max_value; // not if it is not a number
 }
 
-// The variance of the mean of `count` values with these sums.
-double variance_of_mean(const FixedSum* sums, std::uint32_t count)
-{
-    const double n = count;
-    const double mean = static_cast<double>(sums[values]) * fixed_unit / n;
-    const double mean_square = (static_cast<double>(sums[squares]) * fixed_unit +
-                                static_cast<double>(sums[large_squares]) * large_unit) /
-                               n;
-    return std::max(mean_square - mean * mean, 0.0) / (n - 1.0);
-}
-
 double developed(LayerKind kind, const FixedSum* sums, std::uint32_t count)
 {
     if (is_variance(kind) && (count == 1 || (count == 0 && kind == LayerKind::variance)))
         return std::numeric_limits<double>::quiet_NaN();
     if (count == 0) return 0.0;
-    return is_variance(kind) ? variance_of_mean(sums, count)
+    return is_variance(kind) ? variance_of_mean(sums[values], sums[squares], sums[large_squares], count)
                              : static_cast<double>(sums[values]) * fixed_unit / static_cast<double>(count);
 }
 
@@ -83,10 +69,10 @@ void add_value(FixedSum* sums, LayerKind kind, float value)
     const double x = value; // its square is exact
     sums[values] += to_fixed(x * fixed_units_per_one);
     if (!is_variance(kind)) return;
-    if (std::abs(value) < large)
+    if (std::abs(value) < fixed_large_value)
         sums[squares] += to_fixed(x * x * fixed_units_per_one);
     else
-        sums[large_squares] += to_fixed(x * x / large_unit);
+        sums[large_squares] += to_fixed(x * x / fixed_large_unit);
 }
 
 } // namespace

@@ -48,11 +48,9 @@ Scene::Scene(std::vector<SceneObject> objects, std::vector<std::unique_ptr<Emitt
             {object.emitter ? add_emitter(*object.emitter) : 0, object.bsdf && object.bsdf->is_oriented()});
     }
     for (const auto& light : lights_) add_emitter(*light);
-    const auto is_null = [](const SceneObject& object) { return object.bsdf->lobes().has_any(Lobe::null); };
-    has_null_surfaces_ = std::any_of(objects_.begin(), objects_.end(), is_null);
-    for (const Group* group : groups())
-        has_null_surfaces_ =
-            has_null_surfaces_ || std::any_of(group->objects().begin(), group->objects().end(), is_null);
+    for_each_object([this](const SceneObject& object) {
+        has_null_surfaces_ = has_null_surfaces_ || object.bsdf->lobes().has_any(Lobe::null);
+    });
 
     choice_ = LightTree(emitters_, LightTree::Among::all, sphere);
     delta_choice_ = LightTree(emitters_, LightTree::Among::delta, sphere);
@@ -171,18 +169,14 @@ SurfacePoint Scene::point_in_instance(const Ray& ray, std::uint32_t index, std::
 std::uint64_t Scene::triangle_count() const
 {
     std::uint64_t count = 0;
-    for (const SceneObject& object : objects_) count += object.shape->triangle_count();
-    for (const Group* group : groups())
-        for (const SceneObject& object : group->objects()) count += object.shape->triangle_count();
+    for_each_object([&](const SceneObject& object) { count += object.shape->triangle_count(); });
     return count;
 }
 
 SceneMemory Scene::memory() const
 {
     SceneMemory memory = accel_->memory();
-    for (const SceneObject& object : objects_) memory.meshes += object.shape->memory_bytes();
-    for (const Group* group : groups())
-        for (const SceneObject& object : group->objects()) memory.meshes += object.shape->memory_bytes();
+    for_each_object([&](const SceneObject& object) { memory.meshes += object.shape->memory_bytes(); });
     memory.meshes += instances_.capacity() * sizeof(Instance);
     for (const auto& light : lights_) memory.pictures += light->memory_bytes();
     return memory;

@@ -58,9 +58,9 @@ public:
     // pixel: in coordinates of the full picture. weight: the filter's. Different pixels from different threads; one
     // pixel from one thread at a time.
     Verdict add(Vec2i pixel, const Color& radiance, float weight);
-    // The same, and what the layers have of the sample if it is accepted. index: the sample's, of the pixel.
+    // The same, and what the layers have of the sample if it is accepted. number: the sample's index.
     Verdict add(Vec2i pixel, const Color& radiance, float weight, const LayerSample& layers,
-                std::uint64_t index);
+                std::uint64_t number);
 
     std::uint64_t sample_count(Vec2i pixel) const;       // accepted ones
     std::uint64_t contributing_count(Vec2i pixel) const; // those of them that were not black

@@ -106,6 +106,14 @@ public:
     const std::vector<SceneObject>& objects() const { return objects_; }
     const std::vector<Instance>& instances() const { return instances_; }
     std::vector<const Group*> groups() const; // those of the instances, each once, in their order
+    // Those of the scene, then those of its groups, whose space is their own.
+    template <class Action>
+    void for_each_object(const Action& action) const
+    {
+        for (const SceneObject& object : objects_) action(object);
+        for (const Group* group : groups())
+            for (const SceneObject& object : group->objects()) action(object);
+    }
     // What SurfacePoint::instance is: an index into instances(). Nothing outside of instances.
     std::optional<std::uint32_t> instance_of(const SurfacePoint& at) const;
     std::string name_of(const SurfacePoint& at) const; // the object, and its instance, for people
@@ -122,7 +130,7 @@ private:
         std::uint32_t emitter_index = 0; // into emitters_
         bool is_oriented = false;        // Bsdf::is_oriented
     };
-    SurfacePoint point_in_instance(const Ray& ray, std::uint32_t instance, std::uint32_t object,
+    SurfacePoint point_in_instance(const Ray& ray, std::uint32_t index, std::uint32_t object,
                                    std::uint32_t primitive) const;
     std::optional<EmitterSample> sample_chosen(const LightTree::Choice& choice, const LightReceiver& receiver,
                                                const Vec2f& u, Measure measure) const;
