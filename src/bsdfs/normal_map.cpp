@@ -9,7 +9,7 @@ namespace plumb {
 /// Bends the normal of the BSDF inside it, as a texture of normals says.
 ///
 /// The colours of the texture are (n + 1) / 2 for a normal n: red along dp/du, blue along the normal of the surface, green
-/// at right angles to both. Such pictures are linear, not sRGB. Blue below 0.5 points into the surface and counts as just
+/// at right angles to both. Such images are linear, not sRGB. Blue below 0.5 points into the surface and counts as just
 /// above 0.5.
 ///
 /// Light is scattered only where it is on the same side of the bent normal as of the surface, so that none leaks

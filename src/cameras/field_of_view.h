@@ -7,13 +7,13 @@
 
 namespace plumb {
 
-// Half the width and height of the picture in the plane at distance 1.
+// Half the width and height of the image in the plane at distance 1.
 struct FieldOfView {
     double half_width = 1.0;
     double half_height = 1.0;
 };
 
-// The parameters fov, fovAxis and focalLengthMm, of a picture with this many pixels.
+// The parameters fov, fovAxis and focalLengthMm, of an image with this many pixels.
 FieldOfView read_field_of_view(const Params& params, Vec2i resolution);
 
 } // namespace plumb

@@ -6,7 +6,7 @@
 
 namespace plumb {
 
-/// A camera whose rays are parallel. Camera space: +z looks forward, +y is up, +x is left. The picture is `viewWidth` wide
+/// A camera whose rays are parallel. Camera space: +z looks forward, +y is up, +x is left. The image is `viewWidth` wide
 /// around the z axis, before toWorld, whose scale counts.
 ///
 ///     width          integer     pixels across, from 1 to 65535   (default 1280)
@@ -17,11 +17,11 @@ namespace plumb {
 ///     nearClip       float       nothing nearer to the camera's plane is seen, if given; in the world, whatever toWorld scales
 ///     farClip        float       nothing farther from it is seen, if given
 ///     mirrored       boolean     the image is flopped, left to right; the dialect eth sets it   (default false)
-///     cropOffsetX    integer     only a part of the picture is rendered: its first column   (default 0)
+///     cropOffsetX    integer     only a part of the image is rendered: its first column   (default 0)
 ///     cropOffsetY    integer     its first row   (default 0)
 ///     cropWidth      integer     its width   (default: up to the right edge)
 ///     cropHeight     integer     its height   (default: down to the lower edge)
-///     sampleBorder   boolean     filters reach beyond the edge of the picture; else they are cut there   (default true)
+///     sampleBorder   boolean     filters reach beyond the edge of the image; else they are cut there   (default true)
 ///
 ///         <camera type="orthographic">
 ///             <float name="viewWidth" value="4"/>
@@ -65,7 +65,7 @@ private:
     FilmWindow film_;
     Transform to_world_;
     double pixel_size_ = 0.0;
-    double half_width_ = 1.0; // of the full picture
+    double half_width_ = 1.0; // of the full image
     double half_height_ = 1.0;
     double mirror_ = 1.0; // -1: the view is mirrored
     Vec3f direction_{0.f, 0.f, 1.f};

@@ -16,7 +16,7 @@ namespace plumb {
 ///     fovAxis         string      that of fov: x, y, diagonal, or that of the smaller or larger of width and height, written
 ///                                 smaller or larger   (default x)
 ///     focalLengthMm   float       instead of fov: of a lens before a film of 36 mm x 24 mm, whose diagonal becomes that of
-///                                 the picture, in mm, greater than 0
+///                                 the image, in mm, greater than 0
 ///     principalPointOffsetX  float  the axis of the camera is seen this part of the width left of the middle   (default 0)
 ///     principalPointOffsetY  float  and this part of the height above it   (default 0)
 ///     toWorld         transform   camera space to world space   (default identity)
@@ -24,11 +24,11 @@ namespace plumb {
 ///     farClip         float       nothing farther along +z is seen, if given
 ///     lensRadius      float       radius of the lens, at least 0; 0 is a pinhole   (default 0)
 ///     focalDistance   float       distance of sharp focus along +z, greater than 0   (default 1)
-///     cropOffsetX     integer     only a part of the picture is rendered: its first column   (default 0)
+///     cropOffsetX     integer     only a part of the image is rendered: its first column   (default 0)
 ///     cropOffsetY     integer     its first row   (default 0)
 ///     cropWidth       integer     its width   (default: up to the right edge)
 ///     cropHeight      integer     its height   (default: down to the lower edge)
-///     sampleBorder    boolean     filters reach beyond the edge of the picture; else they are cut there   (default true)
+///     sampleBorder    boolean     filters reach beyond the edge of the image; else they are cut there   (default true)
 ///     mirrored        boolean     the image is flopped, left to right; the dialect eth sets it   (default false)
 ///
 ///         <camera type="perspective">
@@ -61,7 +61,7 @@ public:
 
     CameraRay sample_ray(const Vec2f& raster, const Vec2f& u_lens) const override
     {
-        // The point of the plane z = 1 seen through this place of the picture; row 0 is up, column 0 is left.
+        // The point of the plane z = 1 seen through this place of the image; row 0 is up, column 0 is left.
         const Vec2f place = raster + shift_;
         const Vec3d towards(half_width_ - place.x * pixel_width_, half_height_ - place.y * pixel_height_,
                             1.0);
@@ -106,8 +106,8 @@ private:
 
     FilmWindow film_;
     Transform to_world_;
-    Vec2f shift_{0.f};        // of a raster place in the window to the full picture about the axis, in pixels
-    double half_width_ = 1.0; // of the picture in the plane z = 1; negative where the view is mirrored
+    Vec2f shift_{0.f};        // of a raster place in the window to the full image about the axis, in pixels
+    double half_width_ = 1.0; // of the image in the plane z = 1; negative where the view is mirrored
     double half_height_ = 1.0;
     double pixel_width_ = 0.0; // of one pixel in that plane
     double pixel_height_ = 0.0;

@@ -156,7 +156,7 @@ private:
         }
     }
 
-    // Through a place of the picture, from 0 to 1 across and down, and the middle of the lens.
+    // Through a place of the image, from 0 to 1 across and down, and the middle of the lens.
     Ray camera_ray(float across, float down) const
     {
         const Vec2i resolution = job_.camera->resolution();
@@ -182,7 +182,7 @@ private:
         if (facts.is_closed && facts.volume > 0.0) add(scene_.name_of(*around), "the camera is inside it");
     }
 
-    // Looks at a grid of places in the picture as the integrator does.
+    // Looks at a grid of places in the image as the integrator does.
     void check_blackness()
     {
         if (scene_.emitters().empty() || !job_.integrator->needs_lamps()) return;

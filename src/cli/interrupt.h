@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Signals while a picture is rendered.
+// Signals while an image is rendered.
 
 #include <atomic>
 

@@ -44,21 +44,20 @@ OptionTable<MethodsOptions> methods_options(const OptionTable<MethodsOptions>& r
 {
     using Options = MethodsOptions;
     const OptionTable<Options> methods = {
-        {{Topic::picture, "--integrators", "TYPE,...", "estimators (default path,path_nee,path_mis)", false,
+        {{Topic::image, "--integrators", "TYPE,...", "estimators (default path,path_nee,path_mis)", false,
           false},
          [](Options& o, std::string_view n, const std::string& t) { o.integrators = parse_list(n, t); }},
-        {{Topic::picture, "--samplers", "TYPE,...",
+        {{Topic::image, "--samplers", "TYPE,...",
           "use each estimator with each of these samplers\n"
           "(default: the scene's)",
           false, false},
          [](Options& o, std::string_view n, const std::string& t) { o.samplers = parse_list(n, t); }}};
     return join<Options>(
         {json_option<Options>(),
-         setting_options<Options>(Topic::picture, &Options::settings, {"spp", "seed", "size"}), methods,
-         rounds, setting_options<Options>(Topic::picture, &Options::settings, {"time"}),
-         scene_options<Options>(), threads_option<Options>(),
-         setting_options<Options>(Topic::running, &Options::settings, {"isa"}), quiet_option<Options>(),
-         verbose_option<Options>(),
+         setting_options<Options>(Topic::image, &Options::settings, {"spp", "seed", "size"}), methods, rounds,
+         setting_options<Options>(Topic::image, &Options::settings, {"time"}), scene_options<Options>(),
+         threads_option<Options>(), setting_options<Options>(Topic::running, &Options::settings, {"isa"}),
+         quiet_option<Options>(), verbose_option<Options>(),
          setting_options<Options>(Topic::verdict, &Options::how, {"significance", "fail-percent"}),
          help_option<Options>()});
 }

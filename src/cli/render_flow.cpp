@@ -49,7 +49,7 @@ std::vector<std::string> default_outputs(const RenderTask& task)
     return {name + ".exr", name + ".png"};
 }
 
-// A part is no picture yet: its output is the checkpoint.
+// A part is no image yet: its output is the checkpoint.
 std::vector<std::string> images_of(const RenderFlow& flow, const RenderTask& task)
 {
     if (flow.session.part) return {};
@@ -125,7 +125,7 @@ int run_flow(const RenderTask& task, const RenderFlow& flow)
     display.reset();
     if (!has_checkpoint) guard.reset(); // else until it is written
 
-    // Whoever sends a signal does not wait long: checkpoint and pictures are written at the same time.
+    // Whoever sends a signal does not wait long: checkpoint and images are written at the same time.
     const Stopwatch writing;
     // In another thread if there is one to be had.
     std::future<void> saving = std::async(std::launch::async | std::launch::deferred, [&] {
@@ -136,8 +136,8 @@ int run_flow(const RenderTask& task, const RenderFlow& flow)
     std::vector<std::string> problems;
     try {
         if (!images.empty())
-            write_pictures(images, session.picture(report.evidence), task.settings.output.exposure,
-                           packing_of(report.evidence), flow.session.checkpoint.file.parent_path());
+            write_images(images, session.image(report.evidence), task.settings.output.exposure,
+                         packing_of(report.evidence), flow.session.checkpoint.file.parent_path());
     } catch (const Error& error) {
         problems.emplace_back(error.what());
     }

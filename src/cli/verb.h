@@ -17,7 +17,7 @@
 namespace plumb {
 
 // --help has an empty line between two of them.
-enum class Topic { output, state, picture, scene, running, path, verdict, about };
+enum class Topic { output, state, image, scene, running, path, verdict, about };
 
 // An option, whatever it fills.
 struct OptionHelp {

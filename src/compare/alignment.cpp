@@ -14,17 +14,17 @@ namespace plumb {
 
 namespace {
 
-using Pair = PicturePair;
+using Pair = ImagePair;
 
 // Changes of one kind: the one with the smallest difference that agrees is named.
 struct Change {
     std::string text; // behind "A "
-    std::function<Pair(const Picture&, const Picture&)> apply;
+    std::function<Pair(const Image&, const Image&)> apply;
 };
 using Group = std::vector<Change>;
 
 // A with the pixels in another order.
-Pair reorder(const Picture& a, const Picture& b, bool turns_x, bool turns_y)
+Pair reorder(const Image& a, const Image& b, bool turns_x, bool turns_y)
 {
     Pair pair{a, b};
     const std::size_t width = static_cast<std::size_t>(a.window.width);
@@ -45,7 +45,7 @@ Pair reorder(const Picture& a, const Picture& b, bool turns_x, bool turns_y)
     return pair;
 }
 
-Pair swap_channels(const Picture& a, const Picture& b, std::size_t first, std::size_t second)
+Pair swap_channels(const Image& a, const Image& b, std::size_t first, std::size_t second)
 {
     Pair pair{a, b};
     for (std::size_t i = 0; i + 2 < a.values.size(); i += 3) {
@@ -55,7 +55,7 @@ Pair swap_channels(const Picture& a, const Picture& b, std::size_t first, std::s
     return pair;
 }
 
-Pair scale(const Picture& a, const Picture& b, double factor)
+Pair scale(const Image& a, const Image& b, double factor)
 {
     Pair pair{a, b};
     for (float& value : pair.a.values) value = static_cast<float>(factor * static_cast<double>(value));
@@ -75,17 +75,17 @@ double decode_srgb(double value)
 }
 
 template <class Decode>
-void decode(Picture& picture, Decode curve)
+void decode(Image& image, Decode curve)
 {
-    for (float& value : picture.values)
+    for (float& value : image.values)
         value = std::copysign(static_cast<float>(curve(std::abs(static_cast<double>(value)))), value);
-    drop_noise(picture);
+    drop_noise(image);
 }
 
 template <class Decode>
 Change decoded(const std::string& text, bool of_a, Decode curve)
 {
-    return {text, [of_a, curve](const Picture& a, const Picture& b) {
+    return {text, [of_a, curve](const Image& a, const Image& b) {
                 Pair pair{a, b};
                 decode(of_a ? pair.a : pair.b, curve);
                 return pair;
@@ -93,7 +93,7 @@ Change decoded(const std::string& text, bool of_a, Decode curve)
 }
 
 // The factor that makes the sums over all pixels and channels equal.
-std::optional<double> exposure(const Picture& a, const Picture& b)
+std::optional<double> exposure(const Image& a, const Image& b)
 {
     double sum_a = 0.0;
     double sum_b = 0.0;
@@ -107,19 +107,18 @@ std::optional<double> exposure(const Picture& a, const Picture& b)
     return factor;
 }
 
-std::vector<Group> all_changes(const Picture& a, const Picture& b)
+std::vector<Group> all_changes(const Image& a, const Image& b)
 {
     std::vector<Group> groups;
     const auto turned = [](const char* text, bool x, bool y) {
-        return Change{text,
-                      [x, y](const Picture& of, const Picture& other) { return reorder(of, other, x, y); }};
+        return Change{text, [x, y](const Image& of, const Image& other) { return reorder(of, other, x, y); }};
     };
     groups.push_back({turned("mirrored left to right", true, false),
                       turned("turned upside down", false, true),
                       turned("rotated by 180 degrees", true, true)});
     if (a.channels.size() == 3) {
         const auto swapped = [](const char* text, std::size_t first, std::size_t second) {
-            return Change{text, [first, second](const Picture& of, const Picture& other) {
+            return Change{text, [first, second](const Image& of, const Image& other) {
                               return swap_channels(of, other, first, second);
                           }};
         };
@@ -135,13 +134,13 @@ std::vector<Group> all_changes(const Picture& a, const Picture& b)
     if (const auto factor = exposure(a, b))
         groups.push_back(
             {{fmt::format("times {:.4g}", *factor),
-              [factor](const Picture& of, const Picture& other) { return scale(of, other, *factor); }}});
+              [factor](const Image& of, const Image& other) { return scale(of, other, *factor); }}});
     for (const int step : {2, 1}) {
         Group shifts;
         for (int y = -step; y <= step; y += step) {
             for (int x = -step; x <= step; x += step) {
                 if (x == 0 && y == 0) continue;
-                shifts.push_back({shift_text(x, y), [x, y](const Picture& of, const Picture& other) {
+                shifts.push_back({shift_text(x, y), [x, y](const Image& of, const Image& other) {
                                       return shift(of, other, x, y);
                                   }});
             }
@@ -151,7 +150,7 @@ std::vector<Group> all_changes(const Picture& a, const Picture& b)
     return groups;
 }
 
-double mean_difference(const Picture& a, const Picture& b)
+double mean_difference(const Image& a, const Image& b)
 {
     double sum = 0.0;
     double count = 0.0;
@@ -166,7 +165,7 @@ double mean_difference(const Picture& a, const Picture& b)
 
 } // namespace
 
-std::optional<Alignment> find_alignment(const Picture& a, const Picture& b, const CompareSettings& options,
+std::optional<Alignment> find_alignment(const Image& a, const Image& b, const CompareSettings& options,
                                         bool found_by_shift_alone)
 {
     std::vector<Group> groups = all_changes(a, b);
@@ -190,7 +189,7 @@ std::optional<Alignment> find_alignment(const Picture& a, const Picture& b, cons
             const double difference = mean_difference(pair.a, pair.b);
             if (!(difference < smallest)) continue;
             const Significance found = find_significance(pair.a, pair.b, how);
-            if (found.finding != Finding::same) continue;
+            if (found.verdict != Verdict::passes) continue;
             // What another exposure leaves of a wrong albedo looks like noise of a wide filter.
             if (change.text.starts_with("times") && found.difference_noise &&
                 found.difference_noise->reach.value_or(10) > 2)

@@ -59,7 +59,7 @@ VarianceKind variance_kind(const ChosenChannels& chosen, const NoiseFacts& facts
 // Empty if there is no such entry.
 std::string header_text(const Image& image, std::string_view name);
 
-// Entries that Plumb's own functions write for make_picture().
+// Entries that Plumb's own functions write for make_image().
 inline constexpr const char* replicas_mark = "plumb:replicas";
 inline constexpr const char* inflation_mark = "plumb:noiseInflation";
 inline constexpr const char* screen_mark = "plumb:forScreens";

@@ -13,23 +13,23 @@ namespace plumb {
 
 namespace {
 
-bool are_identical(const Picture& a, const Picture& b)
+bool are_identical(const Image& a, const Image& b)
 {
     return std::equal(a.values.begin(), a.values.end(), b.values.begin(), b.values.end(),
                       [](float x, float y) { return x == y || (std::isnan(x) && std::isnan(y)); });
 }
 
 // The colours for FLIP, which must be finite: black in both where one is not.
-std::vector<Color> finite_colors(const Picture& picture, const Picture& other)
+std::vector<Color> finite_colors(const Image& image, const Image& other)
 {
     std::vector<Color> colors;
-    colors.reserve(picture.pixels());
-    for (std::size_t i = 0; i < picture.pixels(); ++i)
-        colors.push_back(picture.is_finite(i) && other.is_finite(i) ? picture.color(i) : Color());
+    colors.reserve(image.pixels());
+    for (std::size_t i = 0; i < image.pixels(); ++i)
+        colors.push_back(image.is_finite(i) && other.is_finite(i) ? image.color(i) : Color());
     return colors;
 }
 
-void add_flip(Comparison& comparison, const Picture& a, const Picture& b, FlipMode mode)
+void add_flip(Comparison& comparison, const Image& a, const Image& b, FlipMode mode)
 {
     if (mode == FlipMode::none) return;
     const auto flip = mode == FlipMode::ldr ? ldr_flip : hdr_flip;
@@ -44,19 +44,16 @@ bool is_exceeded(const Metrics& metrics, const Threshold& threshold)
     return threshold.metric == "psnr" ? !(value >= threshold.limit) : !(value <= threshold.limit);
 }
 
-CompareOutcome find_outcome(const Comparison& comparison, const CompareSettings& options,
-                            std::uint64_t tolerated)
+Verdict find_outcome(const Comparison& comparison, const CompareSettings& options, std::uint64_t tolerated)
 {
-    const Finding finding = comparison.significance.finding;
-    if (!comparison.exceeded.empty() || finding == Finding::different) return CompareOutcome::differs;
-    if (comparison.non_finite.only_a + comparison.non_finite.only_b > tolerated)
-        return CompareOutcome::differs;
-    if (comparison.identical || finding == Finding::same) return CompareOutcome::passes;
-    return finding == Finding::not_asked && !options.thresholds.empty() ? CompareOutcome::passes
-                                                                        : CompareOutcome::undecided;
+    const std::optional<Verdict> of_noise = comparison.significance.verdict;
+    if (!comparison.exceeded.empty() || of_noise == Verdict::differs) return Verdict::differs;
+    if (comparison.non_finite.only_a + comparison.non_finite.only_b > tolerated) return Verdict::differs;
+    if (comparison.identical || of_noise == Verdict::passes) return Verdict::passes;
+    return !of_noise && !options.thresholds.empty() ? Verdict::passes : Verdict::undecided;
 }
 
-Comparison compare_pictures(Picture a, Picture b, const CompareSettings& options)
+Comparison compare_images(Image a, Image b, const CompareSettings& options)
 {
     check_comparable(a, b);
     a.is_exact = options.exact == Side::a;
@@ -76,19 +73,19 @@ Comparison compare_pictures(Picture a, Picture b, const CompareSettings& options
     result.non_finite = count_non_finite(a, b);
     result.corrected = correct_for_noise(a, b);
     result.significance = find_significance(a, b, options);
-    if (result.identical && result.significance.finding == Finding::undecided) {
-        result.significance.finding = Finding::same;
+    if (result.identical && result.significance.verdict == Verdict::undecided) {
+        result.significance.verdict = Verdict::passes;
         result.significance.reason.clear();
     }
     const Significance& found = result.significance;
     const bool is_hidden =
         found.difference_noise && found.difference_noise->is_hidden; // it may be a mirrored image
     if (options.alignment &&
-        (found.finding == Finding::different || (found.finding == Finding::undecided && is_hidden)))
+        (found.verdict == Verdict::differs || (found.verdict == Verdict::undecided && is_hidden)))
         result.alignment = find_alignment(a, b, options, found.shift.has_value());
     for (const Threshold& threshold : options.thresholds)
         if (is_exceeded(result.metrics, threshold)) result.exceeded.push_back(threshold);
-    result.outcome = find_outcome(result, options, tolerated_pixels(a, options));
+    result.verdict = find_outcome(result, options, tolerated_pixels(a, options));
     return result;
 }
 
@@ -96,21 +93,21 @@ Comparison compare_pictures(Picture a, Picture b, const CompareSettings& options
 
 Comparison compare(const Estimate& a, const Estimate& b, const CompareSettings& settings)
 {
-    auto [picture_a, picture_b] = make_pictures(a.image, b.image, settings);
-    const auto take_facts = [](Picture& picture, const Estimate& one) {
-        picture.samples_per_pixel = one.samples_per_pixel;
-        picture.estimator = one.estimator;
-        picture.seed = one.seed;
+    auto [image_a, image_b] = make_images(a.image, b.image, settings);
+    const auto take_facts = [](Image& image, const Estimate& one) {
+        image.samples_per_pixel = one.samples_per_pixel;
+        image.estimator = one.estimator;
+        image.seed = one.seed;
     };
-    take_facts(picture_a, a);
-    take_facts(picture_b, b);
-    return compare_pictures(std::move(picture_a), std::move(picture_b), settings);
+    take_facts(image_a, a);
+    take_facts(image_b, b);
+    return compare_images(std::move(image_a), std::move(image_b), settings);
 }
 
 Comparison compare(const Image& a, const Image& b, const CompareSettings& settings)
 {
-    auto [picture_a, picture_b] = make_pictures(a, b, settings);
-    return compare_pictures(std::move(picture_a), std::move(picture_b), settings);
+    auto [image_a, image_b] = make_images(a, b, settings);
+    return compare_images(std::move(image_a), std::move(image_b), settings);
 }
 
 } // namespace plumb

@@ -42,62 +42,62 @@ bool halves_hold(const std::vector<float>& values)
 }
 
 // From the variances of a sample, or from the means of the samples' squares.
-void to_variance_of_mean(Picture& picture, VarianceKind kind)
+void to_variance_of_mean(Image& image, VarianceKind kind)
 {
-    const double samples = *picture.samples_per_pixel;
-    for (std::size_t i = 0; i < picture.variances.size(); ++i) {
-        double variance = static_cast<double>(picture.variances[i]);
+    const double samples = *image.samples_per_pixel;
+    for (std::size_t i = 0; i < image.variances.size(); ++i) {
+        double variance = static_cast<double>(image.variances[i]);
         if (kind == VarianceKind::second_moment)
-            variance = std::max(0.0, variance - sqr(static_cast<double>(picture.values[i]))) * samples /
+            variance = std::max(0.0, variance - sqr(static_cast<double>(image.values[i]))) * samples /
                        std::max(samples - 1.0, 1.0);
-        picture.variances[i] = static_cast<float>(variance / samples);
+        image.variances[i] = static_cast<float>(variance / samples);
     }
 }
 
 // The noise of red, green and blue may be correlated: the variance is at most the square of the weighted deviations' sum.
-void to_luminance(Picture& picture)
+void to_luminance(Image& image)
 {
     const Color weights = {luminance(Color(1.f, 0.f, 0.f)), luminance(Color(0.f, 1.f, 0.f)),
                            luminance(Color(0.f, 0.f, 1.f))};
     std::vector<float> values;
     std::vector<float> variances;
-    for (std::size_t i = 0; i < picture.pixels(); ++i) {
-        values.push_back(luminance(picture.color(i)));
-        if (picture.variances.empty()) continue;
+    for (std::size_t i = 0; i < image.pixels(); ++i) {
+        values.push_back(luminance(image.color(i)));
+        if (image.variances.empty()) continue;
         const auto deviation = [&](std::size_t channel) {
-            return std::sqrt(picture.variances[3 * i + channel]);
+            return std::sqrt(image.variances[3 * i + channel]);
         };
         const float sum = weights.r * deviation(0) + weights.g * deviation(1) + weights.b * deviation(2);
         variances.push_back(sum * sum);
     }
-    picture.channels = {"Y"};
-    picture.values = std::move(values);
-    picture.variances = std::move(variances);
+    image.channels = {"Y"};
+    image.values = std::move(values);
+    image.variances = std::move(variances);
 }
 
-std::string size_text(const Picture& picture)
+std::string size_text(const Image& image)
 {
-    const PixelRect& window = picture.window;
-    std::string text = fmt::format("{}x{} pixels", picture.full_width, picture.full_height);
-    if (window != PixelRect{0, 0, picture.full_width, picture.full_height})
+    const PixelRect& window = image.window;
+    std::string text = fmt::format("{}x{} pixels", image.full_width, image.full_height);
+    if (window != PixelRect{0, 0, image.full_width, image.full_height})
         text += fmt::format(" of which {},{},{},{} exist", window.x, window.y, window.width, window.height);
     return text;
 }
 
 } // namespace
 
-Color Picture::color(std::size_t pixel) const
+Color Image::color(std::size_t pixel) const
 {
     if (channels.size() == 1) return Color(value(pixel, 0));
     return {value(pixel, 0), value(pixel, 1), channels.size() > 2 ? value(pixel, 2) : 0.f};
 }
 
-bool Picture::is_finite(std::size_t pixel) const
+bool Image::is_finite(std::size_t pixel) const
 {
     return plumb::is_finite(color(pixel));
 }
 
-bool Picture::variance_is_known(std::size_t pixel) const
+bool Image::variance_is_known(std::size_t pixel) const
 {
     if (!knows_noise()) return false;
     for (std::size_t channel = 0; channel < channels.size(); ++channel) {
@@ -107,47 +107,47 @@ bool Picture::variance_is_known(std::size_t pixel) const
     return true;
 }
 
-Picture make_picture(const Image& image, Side side, const CompareSettings& options)
+Image make_image(const Image& image, Side side, const CompareSettings& options)
 {
     const NoiseFacts facts = noise_facts(image, options);
     const ChosenChannels chosen = choose_channels(image, side, options.layer, facts.samples.has_value());
-    Picture picture;
-    picture.window = image.data_window();
-    picture.full_width = image.full_width();
-    picture.full_height = image.full_height();
-    picture.channels = chosen.names;
-    picture.values = read_channels(image, chosen.values);
-    picture.samples_per_pixel = facts.samples;
-    picture.estimator = estimator_of(image);
-    picture.seed = header_text(image, "plumb:seed");
-    picture.is_for_screens = !header_text(image, screen_mark).empty();
-    picture.is_luminance = chosen.is_luminance;
-    picture.is_half = halves_hold(picture.values);
-    if (chosen.variances.empty()) return picture;
+    Image image;
+    image.window = image.data_window();
+    image.full_width = image.full_width();
+    image.full_height = image.full_height();
+    image.channels = chosen.names;
+    image.values = read_channels(image, chosen.values);
+    image.samples_per_pixel = facts.samples;
+    image.estimator = estimator_of(image);
+    image.seed = header_text(image, "plumb:seed");
+    image.is_for_screens = !header_text(image, screen_mark).empty();
+    image.is_luminance = chosen.is_luminance;
+    image.is_half = halves_hold(image.values);
+    if (chosen.variances.empty()) return image;
 
     const VarianceKind kind = variance_kind(chosen, facts, options);
     if (kind != VarianceKind::of_mean && !facts.samples) {
-        picture.noise =
+        image.noise =
             fmt::format("none ({} without a number of samples: pass --spp N)", chosen.variance_name);
-        return picture;
+        return image;
     }
-    picture.variances = read_channels(image, chosen.variances);
-    if (kind != VarianceKind::of_mean) to_variance_of_mean(picture, kind);
-    if (chosen.contributing) picture.contributing = read_channels(image, {*chosen.contributing});
-    picture.noise = "variance channels";
+    image.variances = read_channels(image, chosen.variances);
+    if (kind != VarianceKind::of_mean) to_variance_of_mean(image, kind);
+    if (chosen.contributing) image.contributing = read_channels(image, {*chosen.contributing});
+    image.noise = "variance channels";
     if (facts.replicas) {
-        picture.noise = fmt::format("{} replicas", *facts.replicas);
-        picture.freedom = static_cast<double>(*facts.replicas - 1);
-        picture.inflation = facts.inflation;
-        picture.samples_per_pixel.reset();
+        image.noise = fmt::format("{} replicas", *facts.replicas);
+        image.freedom = static_cast<double>(*facts.replicas - 1);
+        image.inflation = facts.inflation;
+        image.samples_per_pixel.reset();
     } else if (kind != VarianceKind::of_mean) {
-        picture.noise = fmt::format("{} of {} samples", chosen.variance_name, *facts.samples);
+        image.noise = fmt::format("{} of {} samples", chosen.variance_name, *facts.samples);
     }
-    return picture;
+    return image;
 }
 
-std::pair<Picture, Picture> make_pictures(const Image& image_a, const Image& image_b,
-                                          const CompareSettings& options)
+std::pair<Image, Image> make_images(const Image& image_a, const Image& image_b,
+                                    const CompareSettings& options)
 {
     CompareSettings of_a = options;
     CompareSettings of_b = options;
@@ -156,25 +156,25 @@ std::pair<Picture, Picture> make_pictures(const Image& image_a, const Image& ima
     const bool is_of_colors = is_layer_of_colors(a_has ? image_a : image_b, options.layer);
     if (!options.layer.empty() && a_has != b_has && is_of_colors && has_colors(a_has ? image_b : image_a))
         (a_has ? of_b : of_a).layer.clear();
-    Picture a = make_picture(image_a, Side::a, of_a);
-    Picture b = make_picture(image_b, Side::b, of_b);
+    Image a = make_image(image_a, Side::a, of_a);
+    Image b = make_image(image_b, Side::b, of_b);
     if (of_a.layer != of_b.layer) a.channels = b.channels = {"R", "G", "B"};
     if (a.is_luminance && !b.is_luminance && b.channels.size() == 3) to_luminance(b);
     if (b.is_luminance && !a.is_luminance && a.channels.size() == 3) to_luminance(a);
     return {std::move(a), std::move(b)};
 }
 
-bool are_of_one_estimator(const Picture& a, const Picture& b)
+bool are_of_one_estimator(const Image& a, const Image& b)
 {
     return !a.estimator.empty() && a.estimator == b.estimator;
 }
 
-bool share_random_numbers(const Picture& a, const Picture& b)
+bool share_random_numbers(const Image& a, const Image& b)
 {
     return are_of_one_estimator(a, b) && !a.seed.empty() && a.seed == b.seed;
 }
 
-void check_comparable(const Picture& a, const Picture& b)
+void check_comparable(const Image& a, const Image& b)
 {
     if (size_text(a) != size_text(b))
         throw Error(

@@ -7,7 +7,7 @@
 
 namespace plumb {
 
-struct Picture {
+struct Image {
     PixelRect window; // the pixels that exist
     int full_width = 0;
     int full_height = 0;
@@ -43,19 +43,19 @@ struct Picture {
     bool variance_is_known(std::size_t pixel) const;
 };
 
-// `side` names the picture in messages. Channels: channel_names.h; the layer, variance_of and samples of the options
+// `side` names the image in messages. Channels: channel_names.h; the layer, variance_of and samples of the options
 // count. Throws Error if they are not there.
-Picture make_picture(const Image& image, Side side, const CompareSettings& options);
+Image make_image(const Image& image, Side side, const CompareSettings& options);
 
 // Both, of which one may lack a layer of colours, or be in luminance only: then the other is taken likewise.
-std::pair<Picture, Picture> make_pictures(const Image& a, const Image& b, const CompareSettings& options);
+std::pair<Image, Image> make_images(const Image& a, const Image& b, const CompareSettings& options);
 
 // The samples of both have one distribution.
-bool are_of_one_estimator(const Picture& a, const Picture& b);
+bool are_of_one_estimator(const Image& a, const Image& b);
 // And the same random numbers.
-bool share_random_numbers(const Picture& a, const Picture& b);
+bool share_random_numbers(const Image& a, const Image& b);
 
-// Of both pictures: the same channels, sizes and windows. Throws Error.
-void check_comparable(const Picture& a, const Picture& b);
+// Of both images: the same channels, sizes and windows. Throws Error.
+void check_comparable(const Image& a, const Image& b);
 
 } // namespace plumb

@@ -32,22 +32,22 @@ double tone_curve(double x)
     return std::clamp((aces_a0 * x * x + aces_a1 * x) / (aces_b0 * x * x + aces_b1 * x + aces_b2), 0.0, 1.0);
 }
 
-std::vector<Vec3d> tone_mapped(const std::vector<Color>& picture, double exposure)
+std::vector<Vec3d> tone_mapped(const std::vector<Color>& image, double exposure)
 {
     const double scale = exp(exposure * ln_2);
     std::vector<Vec3d> result;
-    result.reserve(picture.size());
+    result.reserve(image.size());
     const auto map = [scale](float x) { return tone_curve(scale * std::max(0.0, static_cast<double>(x))); };
-    for (const Color& c : picture) result.emplace_back(map(c.r), map(c.g), map(c.b));
+    for (const Color& c : image) result.emplace_back(map(c.r), map(c.g), map(c.b));
     return result;
 }
 
-std::vector<Vec3d> clamped(const std::vector<Color>& picture)
+std::vector<Vec3d> clamped(const std::vector<Color>& image)
 {
     std::vector<Vec3d> result;
-    result.reserve(picture.size());
+    result.reserve(image.size());
     const auto clamp = [](float x) { return std::clamp(static_cast<double>(x), 0.0, 1.0); };
-    for (const Color& c : picture) result.emplace_back(clamp(c.r), clamp(c.g), clamp(c.b));
+    for (const Color& c : image) result.emplace_back(clamp(c.r), clamp(c.g), clamp(c.b));
     return result;
 }
 

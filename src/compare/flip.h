@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// FLIP: how large a difference between two pictures appears to somebody who flips between them.
+// FLIP: how large a difference between two images appears to somebody who flips between them.
 //
 // [1] Andersson, Nilsson, Akenine-Moeller, Oskarsson, Astrom and Fairchild 2020, "FLIP: A Difference Evaluator for
 //     Alternating Images", https://doi.org/10.1145/3406183
@@ -17,7 +17,7 @@
 
 namespace plumb {
 
-// The error of each pixel, in [0, 1], and its mean over the picture.
+// The error of each pixel, in [0, 1], and its mean over the image.
 struct FlipError {
     std::vector<float> map;
     double mean = 0.0;

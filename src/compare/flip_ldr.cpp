@@ -18,7 +18,7 @@ constexpr double pixels_per_degree = 0.7 * (3840.0 / 0.7) * (pi_d / 180.0);
 using Plane = std::vector<double>;
 using Kernel = std::vector<double>; // of odd length, about its middle
 
-// Sums of `kernel` times the pixels beside each pixel; beyond its border the picture goes on as it ends.
+// Sums of `kernel` times the pixels beside each pixel; beyond its border the image goes on as it ends.
 Plane filter_rows(const Plane& plane, const Kernel& kernel, const Size& size)
 {
     const std::size_t radius = kernel.size() / 2;
@@ -109,15 +109,15 @@ const SpatialFilters& spatial_filters()
     return filters;
 }
 
-Plane component(const std::vector<Vec3d>& picture, int index)
+Plane component(const std::vector<Vec3d>& image, int index)
 {
     Plane plane;
-    plane.reserve(picture.size());
-    for (const Vec3d& pixel : picture) plane.push_back(pixel[index]);
+    plane.reserve(image.size());
+    for (const Vec3d& pixel : image) plane.push_back(pixel[index]);
     return plane;
 }
 
-// The filtered picture in CIELAB with the Hunt effect: what the colours are compared in.
+// The filtered image in CIELAB with the Hunt effect: what the colours are compared in.
 std::vector<Vec3d> perceived_colors(const std::vector<Vec3d>& ycxcz, const Size& size)
 {
     const SpatialFilters& filters = spatial_filters();
@@ -216,9 +216,9 @@ std::vector<float> flip::ldr_errors(const std::vector<Vec3d>& reference, const s
         std::vector<Vec3d> colors;
         std::vector<Features> features;
     };
-    const auto look_at = [&size](std::vector<Vec3d> picture) {
-        for (Vec3d& pixel : picture) pixel = flip::ycxcz_from_linear(pixel);
-        return Seen{perceived_colors(picture, size), features(picture, size)};
+    const auto look_at = [&size](std::vector<Vec3d> image) {
+        for (Vec3d& pixel : image) pixel = flip::ycxcz_from_linear(pixel);
+        return Seen{perceived_colors(image, size), features(image, size)};
     };
     const Seen a = look_at(reference);
     const Seen b = look_at(test);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// FLIP of two pictures as a screen shows them. Numbers of papers and equations: see compare/flip.h.
+// FLIP of two images as a screen shows them. Numbers of papers and equations: see compare/flip.h.
 
 #include "plumb/math/math.h"
 

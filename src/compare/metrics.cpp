@@ -14,16 +14,16 @@ namespace {
 // Of dark references, so that a relative error means something there; usual since Rousselle et al. 2011.
 constexpr double relative_epsilon = 0.01;
 
-Vec2i place_of(const Picture& picture, std::size_t pixel)
+Vec2i place_of(const Image& image, std::size_t pixel)
 {
-    const auto width = static_cast<std::size_t>(picture.window.width);
-    return {picture.window.x + static_cast<int>(pixel % width),
-            picture.window.y + static_cast<int>(pixel / width)};
+    const auto width = static_cast<std::size_t>(image.window.width);
+    return {image.window.x + static_cast<int>(pixel % width),
+            image.window.y + static_cast<int>(pixel / width)};
 }
 
 } // namespace
 
-NonFinite count_non_finite(const Picture& a, const Picture& b)
+NonFinite count_non_finite(const Image& a, const Image& b)
 {
     NonFinite result;
     for (std::size_t i = 0; i < a.pixels(); ++i) {
@@ -36,7 +36,7 @@ NonFinite count_non_finite(const Picture& a, const Picture& b)
     return result;
 }
 
-Metrics measure(const Picture& a, const Picture& b)
+Metrics measure(const Image& a, const Image& b)
 {
     const std::size_t channels = a.channels.size();
     Metrics m;
@@ -74,7 +74,7 @@ Metrics measure(const Picture& a, const Picture& b)
     return m;
 }
 
-std::optional<NoiseCorrected> correct_for_noise(const Picture& a, const Picture& b)
+std::optional<NoiseCorrected> correct_for_noise(const Image& a, const Image& b)
 {
     if (!a.knows_noise() || !b.knows_noise()) return {};
     const std::size_t channels = a.channels.size();

@@ -3,28 +3,28 @@
 
 namespace plumb {
 
-PairedPixels::PairedPixels(const Picture& picture_a, const Picture& picture_b, std::size_t channel,
+PairedPixels::PairedPixels(const Image& image_a, const Image& image_b, std::size_t channel,
                            const std::vector<char>& which)
-    : width(picture_a.window.width), height(picture_a.window.height), counted(which)
+    : width(image_a.window.width), height(image_a.window.height), counted(which)
 {
     const std::size_t pixels = counted.size();
     for (std::vector<double>* numbers : {&differences, &a, &b}) numbers->assign(pixels, 0.0);
     black_a.assign(pixels, 1);
     black_b.assign(pixels, 1);
-    const Picture* known = picture_a.variances.empty() ? &picture_b : &picture_a;
+    const Image* known = image_a.variances.empty() ? &image_b : &image_a;
     if (known->variances.empty()) known = nullptr;
     if (known) variances.assign(pixels, 0.0);
     for (std::size_t i = 0; i < pixels; ++i) {
         if (!counted[i]) continue;
-        a[i] = static_cast<double>(picture_a.value(i, channel));
-        b[i] = static_cast<double>(picture_b.value(i, channel));
+        a[i] = static_cast<double>(image_a.value(i, channel));
+        b[i] = static_cast<double>(image_b.value(i, channel));
         differences[i] = a[i] - b[i];
         if (known) {
             const double variance = known->variance(i, channel);
             if (variance > 0.0 && std::isfinite(variance)) variances[i] = variance;
         }
-        black_a[i] = picture_a.color(i).is_black();
-        black_b[i] = picture_b.color(i).is_black();
+        black_a[i] = image_a.color(i).is_black();
+        black_b[i] = image_b.color(i).is_black();
     }
 }
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The test of one square of pixels: could both pictures have the same expectation there? Numbers of papers: see
+// The test of one square of pixels: could both images have the same expectation there? Numbers of papers: see
 // plumb/compare/compare.h.
 
 #include "compare/estimate.h"
 
 namespace plumb {
 
-// What a picture tells about one channel of a square: sums over its pixels.
+// What an image tells about one channel of a square: sums over its pixels.
 struct SideSums {
     double mean = 0.0;
     double variance = 0.0; // of the mean
@@ -34,7 +34,7 @@ struct UnitSums {
     std::uint64_t pixels = 0;
 };
 
-// How the two pictures were made.
+// How the two images were made.
 struct Sampling {
     std::optional<double> samples_a;
     std::optional<double> samples_b;
@@ -44,11 +44,11 @@ struct Sampling {
     double inflation_a = 1.0; // the noise of neighbours is correlated: of a sum's variance
     double inflation_b = 1.0;
 
-    // What one picture tells of the noise of a sample can be told of the other's.
+    // What one image tells of the noise of a sample can be told of the other's.
     bool noise_is_shared() const { return samples_a && samples_b && !a_is_exact && !b_is_exact; }
 };
 
-// Whether a test of the square may be trusted: from both pictures, enough effective samples and degrees of freedom,
+// Whether a test of the square may be trusted: from both images, enough effective samples and degrees of freedom,
 // and no pixel that has most of the noise.
 bool is_supported(const UnitSums& sums, const Sampling& sampling);
 // Nothing to see in either.
@@ -70,7 +70,7 @@ struct LeastNoise {
     double b = 0.0;
 };
 
-// Of a supported square. A picture that has missed rare bright samples in the whole square does not know its noise, but
+// Of a supported square. An image that has missed rare bright samples in the whole square does not know its noise, but
 // the other one may: samples of either are taken to be as noisy as the noisier ones.
 Deviation deviation(const UnitSums& sums, const Sampling& sampling, const std::optional<LeastNoise>& least);
 

@@ -20,7 +20,7 @@ constexpr std::uint64_t least_squares = 12;
 // The two averages of half a pixel's shift keep 0.313 and 0.318 of the noise's variance.
 constexpr double margin = 0.02;
 
-std::vector<double> squared_differences(const PicturePair& pair, const Squares& squares)
+std::vector<double> squared_differences(const ImagePair& pair, const Squares& squares)
 {
     std::vector<double> sums(squares.count(), 0.0);
     const std::size_t channels = pair.a.channels.size();
@@ -39,7 +39,7 @@ std::vector<double> squared_differences(const PicturePair& pair, const Squares& 
 
 } // namespace
 
-std::optional<Alignment> test_shifts(const Picture& a, const Picture& b)
+std::optional<Alignment> test_shifts(const Image& a, const Image& b)
 {
     const Squares squares(square_side, a.window);
     std::optional<Alignment> best;

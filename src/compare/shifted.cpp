@@ -10,12 +10,12 @@ namespace {
 constexpr float nowhere = std::numeric_limits<float>::quiet_NaN();
 
 // Weighted sums over neighbours along x and y; outside of the image there is nowhere.
-std::vector<float> filtered(const Picture& picture, const std::vector<float>& weights_x, int first_x,
+std::vector<float> filtered(const Image& image, const std::vector<float>& weights_x, int first_x,
                             const std::vector<float>& weights_y, int first_y)
 {
-    const int width = picture.window.width;
-    const int height = picture.window.height;
-    const int channels = static_cast<int>(picture.channels.size());
+    const int width = image.window.width;
+    const int height = image.window.height;
+    const int channels = static_cast<int>(image.channels.size());
     const auto along = [&](const std::vector<float>& values, const std::vector<float>& weights, int first,
                            bool is_x) {
         std::vector<float> result(values.size());
@@ -40,10 +40,10 @@ std::vector<float> filtered(const Picture& picture, const std::vector<float>& we
         }
         return result;
     };
-    return along(along(picture.values, weights_x, first_x, true), weights_y, first_y, false);
+    return along(along(image.values, weights_x, first_x, true), weights_y, first_y, false);
 }
 
-void leave_out_the_same(PicturePair& pair)
+void leave_out_the_same(ImagePair& pair)
 {
     for (std::size_t i = 0; i < pair.a.values.size(); ++i)
         if (std::isnan(pair.a.values[i]) || std::isnan(pair.b.values[i]))
@@ -52,15 +52,15 @@ void leave_out_the_same(PicturePair& pair)
 
 } // namespace
 
-void drop_noise(Picture& picture)
+void drop_noise(Image& image)
 {
-    picture.variances.clear();
-    picture.contributing.clear();
+    image.variances.clear();
+    image.contributing.clear();
 }
 
-PicturePair shift(const Picture& a, const Picture& b, int half_x, int half_y)
+ImagePair shift(const Image& a, const Image& b, int half_x, int half_y)
 {
-    PicturePair pair{a, b};
+    ImagePair pair{a, b};
     const bool is_whole = half_x % 2 == 0 && half_y % 2 == 0;
     const auto weights_a = [](int half) {
         return half % 2 == 0 ? std::vector<float>{1.f} : std::vector<float>{.125f, .375f, .375f, .125f};
@@ -73,7 +73,7 @@ PicturePair shift(const Picture& a, const Picture& b, int half_x, int half_y)
     const auto first_b = [](int half) { return half % 2 == 0 ? 0 : -2; };
     pair.a.values = filtered(a, weights_a(half_x), first_a(half_x), weights_a(half_y), first_a(half_y));
     if (is_whole) {
-        Picture noise = a;
+        Image noise = a;
         if (!a.variances.empty()) {
             noise.values = a.variances;
             pair.a.variances = filtered(noise, {1.f}, half_x / 2, {1.f}, half_y / 2);
@@ -88,9 +88,9 @@ PicturePair shift(const Picture& a, const Picture& b, int half_x, int half_y)
     return pair;
 }
 
-PicturePair unshifted(const Picture& a, const Picture& b, int half_x, int half_y)
+ImagePair unshifted(const Image& a, const Image& b, int half_x, int half_y)
 {
-    PicturePair pair = shift(a, b, half_x, half_y);
+    ImagePair pair = shift(a, b, half_x, half_y);
     const bool is_whole = half_x % 2 == 0 && half_y % 2 == 0;
     std::vector<float> values = is_whole ? a.values : shift(b, a, half_x, half_y).b.values;
     for (std::size_t i = 0; i < values.size(); ++i)

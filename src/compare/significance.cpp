@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 
-// The chance of a false alarm is shared out beforehand (Bonferroni): one half to the test of the whole picture, the
+// The chance of a false alarm is shared out beforehand (Bonferroni): one half to the test of the whole image, the
 // rest in equal parts to the sizes of squares, and within a size to its squares and channels. Sizes go from fine to
 // coarse; pixels of a square that was rejected do not count in the larger ones, so that a single wrong pixel does not
-// make the whole picture wrong.
+// make the whole image wrong.
 
 #include "compare/significance.h"
 
@@ -19,7 +19,7 @@ namespace {
 
 constexpr double share_of_whole = 0.5;
 // Squares below such a size take their variance to be at least that of the square of this size around them, as rare bright
-// samples may all have been missed in the small one. Where both are pictures of one estimator, what one has missed the
+// samples may all have been missed in the small one. Where both are images of one estimator, what one has missed the
 // other tells of, and the first will do; else neither may, and more of the surroundings must.
 constexpr std::array surroundings = {16, 64};
 
@@ -27,7 +27,7 @@ enum class State : std::uint8_t { usable, unusable, differs };
 
 class Tester {
 public:
-    Tester(const Picture& a, const Picture& b, const CompareSettings& options)
+    Tester(const Image& a, const Image& b, const CompareSettings& options)
         : a_(a), b_(b), options_(options), states_(a.pixels(), State::usable), covered_(a.pixels(), false)
     {
         sampling_ = {a.samples_per_pixel, b.samples_per_pixel, a.is_exact, b.is_exact,
@@ -76,8 +76,8 @@ private:
     std::vector<UnitSums> sums(const Squares& squares, std::size_t channel) const
     {
         std::vector<UnitSums> result(squares.count());
-        const auto contributing = [](const Picture& picture, std::size_t pixel) {
-            return static_cast<double>(picture.contributing.empty() ? infinity : picture.contributing[pixel]);
+        const auto contributing = [](const Image& image, std::size_t pixel) {
+            return static_cast<double>(image.contributing.empty() ? infinity : image.contributing[pixel]);
         };
         std::size_t i = 0;
         for (int y = 0; y < a_.window.height; ++y) {
@@ -224,8 +224,8 @@ private:
         }
     }
 
-    const Picture& a_;
-    const Picture& b_;
+    const Image& a_;
+    const Image& b_;
     const CompareSettings& options_;
     Sampling sampling_;
     std::vector<State> states_;
@@ -235,7 +235,7 @@ private:
 
 } // namespace
 
-Significance test_significance(const Picture& a, const Picture& b, const CompareSettings& options)
+Significance test_significance(const Image& a, const Image& b, const CompareSettings& options)
 {
     return Tester(a, b, options).run();
 }

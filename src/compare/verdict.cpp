@@ -15,12 +15,12 @@ namespace {
 constexpr double share_of_shifts = 0.05; // of the chance of a false alarm
 
 // Rounded to integers and clipped at 1: the mean of noisy pixels is not that of the light.
-bool is_unfit(const Picture& picture)
+bool is_unfit(const Image& image)
 {
-    return picture.is_for_screens && !picture.is_exact && !picture.knows_noise();
+    return image.is_for_screens && !image.is_exact && !image.knows_noise();
 }
 
-std::string hidden_text(const Picture& a, const DifferenceNoise& noise)
+std::string hidden_text(const Image& a, const DifferenceNoise& noise)
 {
     if (!noise.reach)
         return "A - B is correlated over more than 10 pixels, as after a denoiser or a wide filter; pass "
@@ -34,14 +34,14 @@ std::string hidden_text(const Picture& a, const DifferenceNoise& noise)
 }
 
 // What the tests of sums do not see: the differences at an edge have either sign.
-void find_shift(const Picture& a, const Picture& b, const CompareSettings& options, Significance& result)
+void find_shift(const Image& a, const Image& b, const CompareSettings& options, Significance& result)
 {
     result.shift = test_shifts(a, b);
     if (!result.shift) return;
     result.shift->p = std::min(1.0, result.shift->p / share_of_shifts);
     result.p = std::min(result.p, result.shift->p);
     if (result.shift->p > options.significance) return;
-    result.finding = Finding::different;
+    result.verdict = Verdict::differs;
     result.reason.clear();
     result.differing = result.pixels;
     result.untested = 0;
@@ -49,35 +49,34 @@ void find_shift(const Picture& a, const Picture& b, const CompareSettings& optio
 
 } // namespace
 
-std::uint64_t tolerated_pixels(const Picture& a, const CompareSettings& options)
+std::uint64_t tolerated_pixels(const Image& a, const CompareSettings& options)
 {
     return static_cast<std::uint64_t>(static_cast<double>(a.pixels()) * options.fail_percent / 100.0);
 }
 
-Significance find_significance(const Picture& a, const Picture& b, const CompareSettings& options)
+Significance find_significance(const Image& a, const Image& b, const CompareSettings& options)
 {
     Significance result;
-    const auto without_tests = [&result](Finding finding, std::string reason) {
-        result.finding = finding;
+    const auto without_tests = [&result](std::optional<Verdict> verdict, std::string reason) {
+        result.verdict = verdict;
         result.reason = std::move(reason);
         return result;
     };
-    if (!options.verdict) return without_tests(Finding::not_asked, "only the limits decide");
-    if (a.is_exact && b.is_exact) return without_tests(Finding::not_asked, "neither image has noise");
+    if (!options.verdict) return without_tests(std::nullopt, "only the limits decide");
+    if (a.is_exact && b.is_exact) return without_tests(std::nullopt, "neither image has noise");
     if (is_unfit(a) && is_unfit(b))
         return without_tests(
-            Finding::not_asked,
-            "both images are rounded to integers and clipped at 1, which changes their means");
+            std::nullopt, "both images are rounded to integers and clipped at 1, which changes their means");
     if (is_unfit(a) || is_unfit(b))
         return without_tests(
-            Finding::undecided,
+            Verdict::undecided,
             fmt::format("{0} is rounded to integers and clipped at 1, which changes its means; write "
                         "it as .exr, or pass --exact {0} if it has no noise",
                         is_unfit(a) ? "A" : "B"));
 
     // Of layers, say, that have no noise.
     if (!a.knows_noise() && !b.knows_noise() && !options.thresholds.empty())
-        return without_tests(Finding::not_asked, "neither image has variance channels, and limits are given");
+        return without_tests(std::nullopt, "neither image has variance channels, and limits are given");
 
     const bool is_paired = !a.knows_noise() || !b.knows_noise();
     CompareSettings how = options;
@@ -88,18 +87,18 @@ Significance find_significance(const Picture& a, const Picture& b, const Compare
     const bool nothing_is_tested = // then nobody can tolerate it
         result.differing == 0 && result.untested + count_non_finite(a, b).both >= result.pixels;
     if (result.differing > tolerated) {
-        result.finding = Finding::different;
+        result.verdict = Verdict::differs;
     } else if (result.difference_noise && result.difference_noise->is_hidden) {
-        result.finding = Finding::undecided;
+        result.verdict = Verdict::undecided;
         result.reason = hidden_text(a, *result.difference_noise);
     } else if (nothing_is_tested || result.differing + result.untested > tolerated) {
-        result.finding = Finding::undecided;
+        result.verdict = Verdict::undecided;
         result.reason = fmt::format("{} of {} pixels lie in no square where the samples support a test",
                                     result.untested, result.pixels);
     } else {
-        result.finding = Finding::same;
+        result.verdict = Verdict::passes;
     }
-    if (is_paired && options.alignment && result.finding != Finding::different)
+    if (is_paired && options.alignment && result.verdict != Verdict::differs)
         find_shift(a, b, options, result);
     return result;
 }

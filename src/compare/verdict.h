@@ -7,7 +7,7 @@
 
 namespace plumb {
 
-std::uint64_t tolerated_pixels(const Picture& a, const CompareSettings& options);
-Significance find_significance(const Picture& a, const Picture& b, const CompareSettings& options);
+std::uint64_t tolerated_pixels(const Image& a, const CompareSettings& options);
+Significance find_significance(const Image& a, const Image& b, const CompareSettings& options);
 
 } // namespace plumb

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-// Importance sampling of a picture of the sky follows pbrt, 4th ed., section 12.5.2, but for the shape of the cells:
+// Importance sampling of an image of the sky follows pbrt, 4th ed., section 12.5.2, but for the shape of the cells:
 // here a cell's density is constant per unit solid angle, and its weight is the exact mean of what lookups in it give.
 
 #include "model/plugin.h"
@@ -146,7 +146,7 @@ private:
     Vec3f sample_direction(double u_select, const Vec2f& u) const
     {
         if (!row_choice_.can_sample()) return {0.f, 1.f, 0.f};
-        // Samples that are spread evenly over the square are spread evenly over the picture's light: u.y chooses the row,
+        // Samples that are spread evenly over the square are spread evenly over the image's light: u.y chooses the row,
         // u.x the column. u_select gives each of them the digits that a float has not.
         const double digits = u_select * 0x1p27;
         const double first_digits = std::floor(digits);

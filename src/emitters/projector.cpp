@@ -9,12 +9,12 @@
 
 namespace plumb {
 
-/// A slide projector without a lens: a light at a point that throws a picture. A white diffuse wall across its axis at
-/// distance d shows the radiance `irradiance` / d^2 everywhere inside the picture, whatever the field of view: the wall's
+/// A slide projector without a lens: a light at a point that throws an image. A white diffuse wall across its axis at
+/// distance d shows the radiance `irradiance` / d^2 everywhere inside the image, whatever the field of view: the wall's
 /// irradiance is pi times that.
 ///
-/// A perspective camera in its place, with the same parameters, sees the picture upright. (u, v) of the texture are (0, 0) in
-/// the picture's lower left corner and (1, 1) in its upper right one, so images of textures are upright. The picture is as
+/// A perspective camera in its place, with the same parameters, sees the image upright. (u, v) of the texture are (0, 0) in
+/// the image's lower left corner and (1, 1) in its upper right one, so images of textures are upright. The image is as
 /// wide for its height as the image of the texture.
 ///
 ///     irradiance      color or texture   in W / m^2 at distance 1, divided by pi; at least 0   (default 1)

@@ -12,7 +12,7 @@ Agreement agree(SceneFile& file, const AgreeSettings& settings, int threads,
     std::vector<Estimate> estimates;
     std::vector<std::uint64_t> samples_of;
     for (RenderTask& task : tasks) {
-        task.options.seed += estimates.size(); // independent pictures: independent seeds
+        task.options.seed += estimates.size(); // independent images: independent seeds
         if (const auto seconds = settings.base.stop.seconds) {
             const double samples = *seconds / static_cast<double>(tasks.size()) / seconds_per_sample(task);
             task.options.samples_per_pixel =

@@ -42,24 +42,24 @@ double seconds_per_sample(RenderTask task)
 
 namespace {
 
-// Two pictures of the same bits are the same. Two estimators whose pictures are the same without a pixel that tells anything
+// Two images of the same bits are the same. Two estimators whose images are the same without a pixel that tells anything
 // of either, as black ones do not, need not agree.
 void doubt_if_untested(Comparison& comparison)
 {
     Significance& found = comparison.significance;
     if (!comparison.identical || found.untested < found.pixels) return;
-    found.finding = Finding::undecided;
+    found.verdict = Verdict::undecided;
     found.reason = comparison.metrics.mean_a == 0.0 ? "both images are black: no sample has found any light"
                                                     : "no sample of either image shows any noise";
-    comparison.outcome = CompareOutcome::undecided;
+    comparison.verdict = Verdict::undecided;
 }
 
-CompareOutcome outcome_of(const std::vector<MethodPair>& pairs)
+Verdict outcome_of(const std::vector<MethodPair>& pairs)
 {
-    CompareOutcome worst = CompareOutcome::passes;
+    Verdict worst = Verdict::passes;
     for (const MethodPair& pair : pairs) {
-        if (pair.comparison.outcome == CompareOutcome::differs) return CompareOutcome::differs;
-        if (pair.comparison.outcome == CompareOutcome::undecided) worst = CompareOutcome::undecided;
+        if (pair.comparison.verdict == Verdict::differs) return Verdict::differs;
+        if (pair.comparison.verdict == Verdict::undecided) worst = Verdict::undecided;
     }
     return worst;
 }
@@ -73,14 +73,14 @@ Agreement compare_pairs(std::vector<Estimate> estimates, std::vector<std::uint64
     how.flip = FlipMode::none;
     how.alignment = false;
     how.significance /= static_cast<double>(estimates.size() * (estimates.size() - 1) / 2); // Bonferroni
-    Agreement result{std::move(estimates), std::move(samples_of), {}, CompareOutcome::undecided};
+    Agreement result{std::move(estimates), std::move(samples_of), {}, Verdict::undecided};
     for (std::size_t a = 0; a < result.estimates.size(); ++a) {
         for (std::size_t b = a + 1; b < result.estimates.size(); ++b) {
             result.pairs.push_back({a, b, compare(result.estimates[a], result.estimates[b], how)});
             doubt_if_untested(result.pairs.back().comparison);
         }
     }
-    result.outcome = outcome_of(result.pairs);
+    result.verdict = outcome_of(result.pairs);
     return result;
 }
 

@@ -13,12 +13,12 @@ namespace {
 struct Racer {
     RenderTask task;
     std::vector<double> seconds; // of each round
-    std::vector<Image> pictures;
+    std::vector<Image> images;
 };
 
-// Of each picture. By a time limit, the power of two that makes all rounds of all racers take about that long: powers of two
+// Of each image. By a time limit, the power of two that makes all rounds of all racers take about that long: powers of two
 // suit sequences of low discrepancy.
-std::uint64_t samples_of_a_picture(const std::vector<Racer>& racers, const RaceSettings& settings)
+std::uint64_t samples_of_a_image(const std::vector<Racer>& racers, const RaceSettings& settings)
 {
     if (!settings.base.stop.seconds) return racers.front().task.options.samples_per_pixel;
     double seconds = 0.0;
@@ -28,7 +28,7 @@ std::uint64_t samples_of_a_picture(const std::vector<Racer>& racers, const RaceS
         static_cast<std::uint64_t>(std::clamp(samples, 2.0, static_cast<double>(film_max_samples))));
 }
 
-// In turn, so that a machine whose speed drifts favours none. Every picture has a seed of its own.
+// In turn, so that a machine whose speed drifts favours none. Every image has a seed of its own.
 void run(std::vector<Racer>& racers, std::uint64_t samples_per_pixel, const RaceSettings& settings,
          const SessionCallbacks& callbacks)
 {
@@ -39,15 +39,15 @@ void run(std::vector<Racer>& racers, std::uint64_t samples_per_pixel, const Race
             racer.task.options.seed = seed++;
             const RenderState result = render_all(racer.task, callbacks);
             racer.seconds.push_back(result.seconds);
-            racer.pictures.push_back(result.film.develop());
+            racer.images.push_back(result.film.develop());
         }
     }
 }
 
-// The mean of the pictures, with the variance that it has by their spread.
-Image mean_picture(const std::vector<Image>& pictures)
+// The mean of the images, with the variance that it has by their spread.
+Image mean_image(const std::vector<Image>& images)
 {
-    const Image& first = pictures.front();
+    const Image& first = images.front();
     Image mean(first.data_window(), first.full_width(), first.full_height(),
                {"R", "G", "B", "variance.R", "variance.G", "variance.B"});
     const PixelRect& window = mean.data_window();
@@ -55,7 +55,7 @@ Image mean_picture(const std::vector<Image>& pictures)
         for (int x = window.x; x < window.x + window.width; ++x) {
             for (int channel = 0; channel < 3; ++channel) {
                 MeanAndVariance values;
-                for (const Image& picture : pictures) values.add(picture.pixel(x, y)[channel]);
+                for (const Image& image : images) values.add(image.pixel(x, y)[channel]);
                 mean.pixel(x, y)[channel] = static_cast<float>(values.mean());
                 mean.pixel(x, y)[channel + 3] = static_cast<float>(sqr(values.standard_error()));
             }
@@ -88,8 +88,8 @@ std::vector<RaceRow> rank(const std::vector<Racer>& racers, const std::vector<Es
     std::vector<RaceRow> rows;
     for (std::size_t i = 0; i < racers.size(); ++i) {
         RaceRow row{means[i].name, {racers[i].seconds, {}}, {}};
-        for (const Image& picture : racers[i].pictures)
-            row.rounds.deviations.push_back(mean_squared_difference(picture, means[i].image));
+        for (const Image& image : racers[i].images)
+            row.rounds.deviations.push_back(mean_squared_difference(image, means[i].image));
         rows.push_back(std::move(row));
     }
     std::ranges::stable_sort(rows, {}, cost);
@@ -104,15 +104,15 @@ RaceResult race(SceneFile& file, const RaceSettings& settings, int threads, cons
     std::vector<Racer> racers;
     for (RenderTask& task : tasks_of(file, settings, threads)) racers.push_back({std::move(task), {}, {}});
     RaceResult result;
-    result.samples_per_pixel = samples_of_a_picture(racers, settings);
+    result.samples_per_pixel = samples_of_a_image(racers, settings);
     result.rounds = settings.rounds;
     run(racers, result.samples_per_pixel, settings, callbacks);
 
     std::vector<Estimate> means;
     for (const Racer& racer : racers)
         means.push_back({method_name(racer.task.settings.method),
-                         mean_picture(racer.pictures),
-                         static_cast<double>(settings.rounds), // what is independent is a picture
+                         mean_image(racer.images),
+                         static_cast<double>(settings.rounds), // what is independent is an image
                          {},
                          {}});
     result.ranking = rank(racers, means);

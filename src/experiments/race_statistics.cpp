@@ -20,7 +20,7 @@ double sum_of(const std::vector<double>& values)
     return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
-// Without a picture of n, the mean of the others is away from it by d n / (n - 1), where d is its distance from the mean of
+// Without an image of n, the mean of the others is away from it by d n / (n - 1), where d is its distance from the mean of
 // all: the sum of squared deviations is less by d^2 n / (n - 1).
 Rounds without(Rounds rounds, std::size_t left_out)
 {

@@ -11,7 +11,7 @@ namespace plumb {
 
 namespace {
 
-// --define is <define>. A picture is named after its sample count: no rule may change that.
+// --define is <define>. An image is named after its sample count: no rule may change that.
 bool is_of_suites(const SettingRow<RenderSettings>& row)
 {
     return row.effect != Effect::stop && row.name != "define";
@@ -32,14 +32,14 @@ void set(Settings& settings, const SettingRow<Settings>& row, const std::string&
 SuiteJob make_job(SuiteEntry entry, Diagnostics& diagnostics)
 {
     SuiteJob job;
-    job.picture.scene.definitions = job.reference.scene.definitions = entry.definitions;
+    job.image.scene.definitions = job.reference.scene.definitions = entry.definitions;
     for (const auto& [name, attribute] : entry.settings) {
         if (const auto* row = find_setting<CompareSettings>(name)) {
             set(job.compare, *row, name, attribute, diagnostics);
             continue;
         }
         const auto& row = *find_setting<RenderSettings>(name);
-        set(job.picture, row, name, attribute, diagnostics);
+        set(job.image, row, name, attribute, diagnostics);
         if (!entry.reference_settings.contains(name)) set(job.reference, row, name, attribute, diagnostics);
     }
     for (const auto& [name, attribute] : entry.reference_settings)

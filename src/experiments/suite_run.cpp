@@ -31,7 +31,7 @@ bool is_chosen(const std::string& title, const std::string& filter)
     return title.find(filter) != title.npos;
 }
 
-// Whether the reference would be another picture.
+// Whether the reference would be another image.
 bool makes_another(const SuiteJob& a, const SuiteJob& b)
 {
     return a.entry.scene != b.entry.scene || a.reference != b.reference;
@@ -82,20 +82,10 @@ void check_outputs(const std::vector<std::string>& files)
         throw Error(fmt::format("'{}' is listed as an output twice", *twice));
 }
 
-SuiteVerdict verdict_of(CompareOutcome outcome)
-{
-    switch (outcome) {
-    case CompareOutcome::passes: return SuiteVerdict::passes;
-    case CompareOutcome::differs: return SuiteVerdict::differs;
-    case CompareOutcome::undecided: return SuiteVerdict::undecided;
-    }
-    return SuiteVerdict::undecided;
-}
-
 // "box_diff.png" for "box.exr".
-std::string difference_of(const std::string& picture)
+std::string difference_of(const std::string& image)
 {
-    return fs::path(picture).replace_extension().string() + "_diff.png";
+    return fs::path(image).replace_extension().string() + "_diff.png";
 }
 
 SuiteResult result_of(const SuiteJob& job, const RenderSettings& settings)
@@ -108,7 +98,7 @@ SuiteResult result_of(const SuiteJob& job, const RenderSettings& settings)
     return result;
 }
 
-// What the header of a picture says that is there already.
+// What the header of an image says that is there already.
 void read_header(SuiteResult& result, const Image& image)
 {
     for (const auto& [name, value] : image.metadata) {
@@ -146,20 +136,20 @@ public:
     // Never throws: what goes wrong is in the result.
     SuiteResult run(const SuiteJob& job)
     {
-        picture_.reset();
+        image_.reset();
         reference_.reset();
-        SuiteResult result = result_of(job, options_.update ? job.reference : job.picture);
+        SuiteResult result = result_of(job, options_.update ? job.reference : job.image);
         if (options_.update) result.title = result.reference;
         const auto start = Clock::now();
         const auto fail = [&](std::string problem) {
-            result.verdict = SuiteVerdict::error;
+            result.state = JobState::failed;
             result.problem = std::move(problem);
         };
         try {
             if (options_.update)
                 make_reference(job, result);
             else
-                make_picture(job, result);
+                make_image(job, result);
         } catch (const SceneError& error) {
             fail(error.what());
         } catch (const FileError& error) {
@@ -174,14 +164,11 @@ public:
     }
 
     // Of the last job.
-    SuiteImages images() const
-    {
-        return {picture_ ? &*picture_ : nullptr, reference_ ? &*reference_ : nullptr};
-    }
+    SuiteImages images() const { return {image_ ? &*image_ : nullptr, reference_ ? &*reference_ : nullptr}; }
 
 private:
     struct Made {
-        Image picture;
+        Image image;
         Evidence evidence;
     };
 
@@ -217,30 +204,30 @@ private:
         return title;
     }
 
-    // Half a picture is neither a result nor a reference.
+    // Half an image is neither a result nor a reference.
     Made render_whole(const RenderTask& task, const std::vector<std::string>& files, SuiteResult& result)
     {
         RenderSession session(task, {.threads = options_.threads}, callbacks_);
         result.interrupted = session.run() == StopReason::interrupted;
         if (result.interrupted) throw Error("interrupted");
         Evidence evidence = session.evidence();
-        Image picture = session.picture(evidence);
-        write_pictures(files, picture, task.settings.output.exposure, packing_of(evidence), {});
-        return {std::move(picture), std::move(evidence)};
+        Image image = session.image(evidence);
+        write_images(files, image, task.settings.output.exposure, packing_of(evidence), {});
+        return {std::move(image), std::move(evidence)};
     }
 
-    void make_picture(const SuiteJob& job, SuiteResult& result)
+    void make_image(const SuiteJob& job, SuiteResult& result)
     {
-        const RenderTask task = task_of(job.entry, job.picture);
+        const RenderTask task = task_of(job.entry, job.image);
         note_warnings(result, task.scene);
         result.title = counted_title(job.entry, task);
         const std::string stem = (options_.directory / result.title).string();
         const std::vector<std::string> files = {stem + ".exr", stem + ".png"};
-        const std::string key = picture_key(task);
+        const std::string key = image_key(task);
         result.up_to_date = !options_.force && state_.is_up_to_date(result.title, key, files);
         if (result.up_to_date) {
-            picture_ = read_image(files[0], true);
-            read_header(result, *picture_);
+            image_ = read_image(files[0], true);
+            read_header(result, *image_);
         } else {
             make_directory(fs::path(stem).parent_path());
             std::vector<std::string> written = files;
@@ -250,15 +237,15 @@ private:
             Made made = render_whole(task, files, result);
             state_.note(result.title, key, files);
             note_evidence(result, made.evidence);
-            picture_ = std::move(made.picture);
+            image_ = std::move(made.image);
         }
-        result.picture = files[0];
-        result.screen_picture = files[1];
-        result.verdict = SuiteVerdict::rendered;
-        if (!job.entry.reference.empty()) compare_with_reference(job, *picture_, result);
+        result.image = files[0];
+        result.screen_image = files[1];
+        result.state = JobState::rendered;
+        if (!job.entry.reference.empty()) compare_with_reference(job, *image_, result);
     }
 
-    void compare_with_reference(const SuiteJob& job, const Image& picture, SuiteResult& result)
+    void compare_with_reference(const SuiteJob& job, const Image& image, SuiteResult& result)
     {
         const SuiteEntry& entry = job.entry;
         std::error_code ignored;
@@ -270,14 +257,14 @@ private:
         const Image& reference = reference_.emplace(read_image(entry.reference, true));
         result.how = job.compare;
         try {
-            result.comparison = compare(picture, reference, result.how);
+            result.comparison = compare(image, reference, result.how);
         } catch (const Error& error) {
-            throw Error(fmt::format("cannot compare A, '{}', with B, '{}': {}", result.picture,
+            throw Error(fmt::format("cannot compare A, '{}', with B, '{}': {}", result.image,
                                     entry.reference.string(), error.what()));
         }
         result.verdict = verdict_of(result.comparison->outcome);
-        const std::string difference = difference_of(result.picture);
-        write_image(difference, difference_image(picture, reference));
+        const std::string difference = difference_of(result.image);
+        write_image(difference, difference_image(image, reference));
         result.difference = difference;
     }
 
@@ -295,22 +282,28 @@ private:
         const Made made = render_whole(task, files, result);
         if (made.evidence.noise) result.noise = made.evidence.noise->rmse;
         result.left_out = made.evidence.left_out.count;
-        result.verdict = SuiteVerdict::made;
+        result.state = JobState::made;
     }
 
     const fs::path& suite_;
     const SuiteOptions& options_;
     const SessionCallbacks& callbacks_;
     SuiteState state_;
-    KeptFiles kept_;               // that no picture may replace
+    KeptFiles kept_;               // that no image may replace
     std::set<std::string> titles_; // that are taken
     std::unique_ptr<SceneFile> last_;
-    std::optional<Image> picture_, reference_; // of the last job
+    std::optional<Image> image_, reference_; // of the last job
 };
 
 } // namespace
 
-std::size_t SuiteRun::count(SuiteVerdict verdict) const
+std::size_t SuiteRun::count(JobState state) const
+{
+    return static_cast<std::size_t>(std::count_if(
+        results.begin(), results.end(), [&](const SuiteResult& result) { return result.state == state; }));
+}
+
+std::size_t SuiteRun::count(Verdict verdict) const
 {
     return static_cast<std::size_t>(
         std::count_if(results.begin(), results.end(),
@@ -354,7 +347,7 @@ SuiteRun run_suite(const fs::path& suite, const std::vector<SuiteJob>& jobs, con
         const SuiteResult& result = run.results.emplace_back(runner.run(job));
         if (told) told(result, runner.images());
         run.interrupted = result.interrupted;
-        stopped = options.fail_fast && result.verdict > SuiteVerdict::passes;
+        stopped = options.fail_fast && result.is_failure();
     }
     run.seconds = seconds_since(start);
     return run;

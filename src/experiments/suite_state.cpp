@@ -20,7 +20,7 @@ constexpr std::string_view first_line = "Plumb batch state 1";
 
 } // namespace
 
-std::string picture_key(const RenderTask& task)
+std::string image_key(const RenderTask& task)
 {
     const LoadedScene& scene = task.scene;
     Hash128 hash;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Which pictures of an output directory need not be rendered again: a text file in it, with a line for each picture.
+// Which images of an output directory need not be rendered again: a text file in it, with a line for each image.
 
 #include "plumb/rendering/task.h"
 
@@ -12,9 +12,9 @@
 
 namespace plumb {
 
-// A hash of everything that the bytes of a picture depend on: the program itself, the scene with all its files, and
+// A hash of everything that the bytes of an image depend on: the program itself, the scene with all its files, and
 // the settings.
-std::string picture_key(const RenderTask& task);
+std::string image_key(const RenderTask& task);
 
 class SuiteState {
 public:

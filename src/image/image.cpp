@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-// Pictures in memory, and reading them.
+// Images in memory, and reading them.
 
 #include "plumb/image/image.h"
 
@@ -102,18 +102,18 @@ std::vector<float> integer_values(std::size_t size, bool decode_srgb)
 }
 
 // The floats that OpenImageIO made of integers, made exact and, but for alpha, decoded.
-void convert_integers(const DecodedPicture& picture, bool decode_srgb)
+void convert_integers(const DecodedImage& image, bool decode_srgb)
 {
-    const std::size_t size = picture.integer_levels;
+    const std::size_t size = image.integer_levels;
     const std::vector<float> plain = integer_values(size, false);
     const std::vector<float> decoded = integer_values(size, decode_srgb);
-    const std::size_t channels = picture.channels.size();
+    const std::size_t channels = image.channels.size();
     const std::size_t pixels =
-        static_cast<std::size_t>(picture.data.width) * static_cast<std::size_t>(picture.data.height);
+        static_cast<std::size_t>(image.data.width) * static_cast<std::size_t>(image.data.height);
     const auto largest = static_cast<float>(size - 1);
-    const std::span<float> values(picture.buffer->pixels(), pixels * channels);
+    const std::span<float> values(image.buffer->pixels(), pixels * channels);
     for (std::size_t i = 0; i < values.size(); ++i) {
-        const bool is_alpha = static_cast<int>(i % channels) == picture.alpha_channel;
+        const bool is_alpha = static_cast<int>(i % channels) == image.alpha_channel;
         const auto integer = static_cast<std::size_t>(std::lround(values[i] * largest));
         values[i] = (is_alpha ? plain : decoded)[std::min(integer, size - 1)];
     }
@@ -144,17 +144,17 @@ auto read_file(const std::filesystem::path& path, const Read& read)
 Image read_image(const std::filesystem::path& path, bool decode_srgb)
 {
     // As the friend of Image.
-    const auto make = [](DecodedPicture& picture) {
-        Image image(std::make_unique<Image::Impl>(
-            Image::Impl{picture.data, picture.full_width, picture.full_height, std::move(picture.channels),
-                        std::move(picture.buffer)}));
-        image.metadata = std::move(picture.metadata);
+    const auto make = [](DecodedImage& image) {
+        Image image(
+            std::make_unique<Image::Impl>(Image::Impl{image.data, image.full_width, image.full_height,
+                                                      std::move(image.channels), std::move(image.buffer)}));
+        image.metadata = std::move(image.metadata);
         return image;
     };
     return read_file(path, [&](const ImageModule& module, const std::string& name) {
-        DecodedPicture picture = module.read(name);
-        if (picture.integer_levels > 0) convert_integers(picture, decode_srgb);
-        return make(picture);
+        DecodedImage image = module.read(name);
+        if (image.integer_levels > 0) convert_integers(image, decode_srgb);
+        return make(image);
     });
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What has to be known of a picture's file before a codec reads it.
+// What has to be known of an image's file before a codec reads it.
 
 #include <filesystem>
 

@@ -3,7 +3,7 @@
 
 // The door to OpenImageIO. Debian's needs some 260 other libraries, which take longer to load than a mistake in a scene
 // takes to be found. So what uses it (src/image/oiio) is a library of its own, libplumb_images.so, which is loaded when the
-// first picture is made, read or written, or before (ImageLibrary).
+// first image is made, read or written, or before (ImageLibrary).
 
 #include "image/image_words.h"
 #include "plumb/image/image.h"
@@ -21,11 +21,11 @@ public:
     virtual float* pixels() = 0;
 };
 
-// No picture has a pixel farther than that from the full picture's corner, and none is larger: ends of windows are ints.
+// No image has a pixel farther than that from the full image's corner, and none is larger: ends of windows are ints.
 inline constexpr int farthest_pixel = 1 << 30;
 
-// A file's picture: integers are divided by their maximum.
-struct DecodedPicture {
+// A file's image: integers are divided by their maximum.
+struct DecodedImage {
     PixelRect data;
     int full_width = 0;
     int full_height = 0;
@@ -36,8 +36,8 @@ struct DecodedPicture {
     Metadata metadata;
 };
 
-// A picture on its way into a file.
-struct PictureFile {
+// An image on its way into a file.
+struct ImageFile {
     std::string name; // its extension says the format
     PixelRect data = {};
     int full_width = 0;
@@ -60,10 +60,10 @@ public:
     virtual std::unique_ptr<PixelBuffer> make_buffer(const PixelRect& data, int full_width, int full_height,
                                                      const std::vector<std::string>& channels,
                                                      bool clear) const = 0;
-    virtual DecodedPicture read(const std::string& name) const = 0;
+    virtual DecodedImage read(const std::string& name) const = 0;
     // Nothing if its values are not 8-bit integers.
     virtual std::optional<ByteImage> read_bytes(const std::string& name) const = 0;
-    virtual std::vector<unsigned char> encode(const PictureFile& picture) const = 0;
+    virtual std::vector<unsigned char> encode(const ImageFile& image) const = 0;
     virtual std::vector<unsigned char> encode_words(const WordImage& image, const FillRows& fill) const = 0;
     virtual void read_words(const std::string& name, const ChooseChannels& choose,
                             const UseRow& use) const = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Pictures of 32-bit words, for what must not be rounded: .exr files with integer channels beside those of floats, which
+// Images of 32-bit words, for what must not be rounded: .exr files with integer channels beside those of floats, which
 // are there to be looked at.
 
 #include "plumb/image/image.h"

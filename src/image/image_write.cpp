@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-// Writing pictures.
+// Writing images.
 
 #include "base/lower_case.h"
 #include "base/temporary_file.h"
@@ -26,7 +26,7 @@ enum class Encoding { linear_float, srgb_8bit };
 struct Format {
     std::string_view extension;
     Encoding encoding;
-    bool keeps_all; // channels beyond red, green and blue; and that a picture is a part of a larger one
+    bool keeps_all; // channels beyond red, green and blue; and that an image is a part of a larger one
     std::string_view compression;
     std::string_view fast_compression = compression;
 };
@@ -90,7 +90,7 @@ std::vector<unsigned char> encode(const std::string& name, const Image& image, c
     const bool is_float = format.encoding == Encoding::linear_float;
     const int channels = channels_written(image, format);
     const PixelRect& data = image.data_window();
-    PictureFile file{.name = name, .metadata = image.metadata};
+    ImageFile file{.name = name, .metadata = image.metadata};
     file.channels.assign(image.channel_names().begin(), image.channel_names().begin() + channels);
     file.data = format.keeps_all ? data : PixelRect{0, 0, data.width, data.height};
     file.full_width = format.keeps_all ? image.full_width() : data.width;

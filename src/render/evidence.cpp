@@ -36,12 +36,12 @@ std::optional<NoiseEstimate> estimate_relative_noise(const Film& film)
 {
     std::optional<NoiseEstimate> noise = estimate_noise(film);
     if (!noise) return std::nullopt;
-    const Image picture = film.develop();
+    const Image image = film.develop();
     const PixelRect& window = film.window();
     double sum = 0.0;
     for (int y = window.y; y < window.y + window.height; ++y) {
         for (int x = window.x; x < window.x + window.width; ++x) {
-            const Color color = picture.color(x, y);
+            const Color color = image.color(x, y);
             sum += static_cast<double>(color.r) + static_cast<double>(color.g) + static_cast<double>(color.b);
         }
     }

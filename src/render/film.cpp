@@ -83,29 +83,29 @@ std::size_t Film::index(Vec2i pixel) const
     return row * static_cast<std::size_t>(window_.width) + column;
 }
 
-Verdict Film::add(Vec2i pixel, const Color& radiance, float weight)
+SampleStatus Film::add(Vec2i pixel, const Color& radiance, float weight)
 {
-    if (!is_finite(radiance)) return Verdict::not_finite;
-    if (min_component(radiance) < 0.f) return Verdict::negative;
+    if (!is_finite(radiance)) return SampleStatus::not_finite;
+    if (min_component(radiance) < 0.f) return SampleStatus::negative;
     const Color value = radiance * weight;
     if (!(max_component(value) < film_max_value && min_component(value) > -film_max_value))
-        return Verdict::out_of_range;
+        return SampleStatus::out_of_range;
     const std::size_t at = index(pixel);
     ++pixels_[at].count;
-    if (value.is_black()) return Verdict::accepted;
+    if (value.is_black()) return SampleStatus::accepted;
     ++pixels_[at].contributing;
     add_channel(at, 0, value.r);
     add_channel(at, 1, value.g);
     add_channel(at, 2, value.b);
-    return Verdict::accepted;
+    return SampleStatus::accepted;
 }
 
-Verdict Film::add(Vec2i pixel, const Color& radiance, float weight, const LayerSample& layers,
-                  std::uint64_t number)
+SampleStatus Film::add(Vec2i pixel, const Color& radiance, float weight, const LayerSample& layers,
+                       std::uint64_t number)
 {
-    const Verdict verdict = add(pixel, radiance, weight);
-    if (layers_ && verdict == Verdict::accepted) layers_->add(index(pixel), weight, layers, number);
-    return verdict;
+    const SampleStatus status = add(pixel, radiance, weight);
+    if (layers_ && status == SampleStatus::accepted) layers_->add(index(pixel), weight, layers, number);
+    return status;
 }
 
 void Film::add_channel(std::size_t pixel, int channel, float value)

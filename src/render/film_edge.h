@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Where the samples of a pixel lie: spread by the filter, beyond the edge of the picture too, or cut there.
+// Where the samples of a pixel lie: spread by the filter, beyond the edge of the image too, or cut there.
 
 #include "plumb/math/math.h"
 #include "plumb/model/camera.h"
@@ -12,8 +12,8 @@
 
 namespace plumb {
 
-// A pixel near the edge of a camera that does not sample the border gets the filter restricted to the picture, and that part
-// counts as all of it. The edge is that of the camera's picture, not of what is rendered of it.
+// A pixel near the edge of a camera that does not sample the border gets the filter restricted to the image, and that part
+// counts as all of it. The edge is that of the camera's image, not of what is rendered of it.
 class FilmEdge {
 public:
     FilmEdge(const Filter& filter, const Camera& camera);

@@ -65,7 +65,7 @@ struct Worker {
     LeftOut left_out;
 };
 
-// One line of the picture's progress at a time, whichever thread is free to report it.
+// One line of the image's progress at a time, whichever thread is free to report it.
 class Reporter {
 public:
     Reporter(const ProgressReport& report, std::uint64_t before, std::uint64_t total)
@@ -224,12 +224,12 @@ bool Rendering::take(const SampleSet& wanted, const ProgressReport& progress, co
                     if (!meter.empty()) worker.first = {};
                     const SampleTaken sample =
                         take_sample(job_, edge, worker.tracer, *worker.sampler, options_.seed, {x, y}, index);
-                    const Verdict verdict =
+                    const SampleStatus status =
                         meter.empty() ? state_.film.add({x, y}, sample.radiance, sample.weight)
                                       : state_.film.add({x, y}, sample.radiance, sample.weight,
                                                         meter.measure(worker.first, worker.values), index);
-                    if (verdict != Verdict::accepted)
-                        worker.left_out.add({{x, y}, index, sample.radiance, verdict});
+                    if (status != SampleStatus::accepted)
+                        worker.left_out.add({{x, y}, index, sample.radiance, status});
                 }
             }
             done.pixels.height = y - tile.y + 1;
@@ -279,7 +279,7 @@ ReplayedSample replay(const RenderJob& job, const RenderOptions& options, Vec2i 
     replayed.value = sample.radiance;
     replayed.raster = sample.raster;
     replayed.weight = sample.weight;
-    replayed.verdict = judge.add(pixel, sample.radiance, sample.weight);
+    replayed.status = judge.add(pixel, sample.radiance, sample.weight);
     return replayed;
 }
 

@@ -84,7 +84,7 @@ constexpr std::size_t most_pieces_of_text = std::size_t{1} << 20;
 struct TooManyPieces {};
 
 // The rows of a set of blocks, from the top, by bands: rows between which no block begins or ends. So the time and the
-// memory are those of the pieces that there are, not of a grid across the picture.
+// memory are those of the pieces that there are, not of a grid across the image.
 class Bands {
 public:
     explicit Bands(std::span<const SampleBlock> blocks, std::size_t most_pieces = SIZE_MAX)
@@ -259,7 +259,7 @@ std::optional<SampleBlock> block_from_text(std::string_view text)
     const auto height = take_number<int>(text, ':');
     const auto first = take_number<std::uint64_t>(text, '-');
     const auto last = take_number<std::uint64_t>(text, '\0');
-    constexpr int largest = 65536; // of a picture's coordinates
+    constexpr int largest = 65536; // of an image's coordinates
     const auto fits = [](const std::optional<int>& n) { return n && *n >= 0 && *n <= largest; };
     if (!fits(x) || !fits(y) || !fits(width) || !fits(height) || !first || !last || !text.empty())
         return std::nullopt;

@@ -10,13 +10,13 @@ std::string color_text(const Color& color)
     return fmt::format("{} {} {}", color.r, color.g, color.b);
 }
 
-std::string_view verdict_text(Verdict verdict)
+std::string_view status_text(SampleStatus status)
 {
-    switch (verdict) {
-    case Verdict::accepted: return "accepted";
-    case Verdict::not_finite: return "not finite";
-    case Verdict::negative: return "negative";
-    case Verdict::out_of_range: return "out of the film's range";
+    switch (status) {
+    case SampleStatus::accepted: return "accepted";
+    case SampleStatus::not_finite: return "not finite";
+    case SampleStatus::negative: return "negative";
+    case SampleStatus::out_of_range: return "out of the film's range";
     }
     return "unknown";
 }
@@ -29,7 +29,7 @@ std::string rectangle_text(const PixelRect& rectangle)
 std::string left_out_text(const LeftOut::Sample& sample)
 {
     return fmt::format("sample {} of pixel {},{} ({}: {})", sample.index, sample.pixel.x, sample.pixel.y,
-                       verdict_text(sample.verdict), color_text(sample.value));
+                       status_text(sample.status), color_text(sample.value));
 }
 
 } // namespace plumb

@@ -107,7 +107,7 @@ std::vector<std::size_t> words_in_use(const Film& film)
 class RowWriter {
 public:
     explicit RowWriter(const Film& film)
-        : film_(film), picture_(film.develop()), used_(words_in_use(film)), room_(room_for_words(film))
+        : film_(film), image_(film.develop()), used_(words_in_use(film)), room_(room_for_words(film))
     {}
 
     std::vector<std::string> channels() const
@@ -124,7 +124,7 @@ public:
         std::uint32_t* out = row.data();
         AllWords words = room_;
         for (int x = window.x; x < window.x + window.width; ++x) {
-            const Color color = picture_.color(x, y);
+            const Color color = image_.color(x, y);
             for (const float value : {color.r, color.g, color.b})
                 *out++ = std::bit_cast<std::uint32_t>(value);
             get_words(film_, {x, y}, words);
@@ -134,7 +134,7 @@ public:
 
 private:
     const Film& film_;
-    Image picture_;
+    Image image_;
     std::vector<std::size_t> used_;
     AllWords room_;
 };
@@ -180,7 +180,7 @@ std::string left_out_text(const LeftOut& left_out)
     const LeftOut::Sample& first = left_out.first;
     const auto bits = [](float value) { return std::bit_cast<std::uint32_t>(value); };
     return fmt::format("{} {} {} {} {} {} {} {}", left_out.count, first.pixel.x, first.pixel.y, first.index,
-                       static_cast<int>(first.verdict), bits(first.value.r), bits(first.value.g),
+                       static_cast<int>(first.status), bits(first.value.r), bits(first.value.g),
                        bits(first.value.b));
 }
 
@@ -218,7 +218,7 @@ LeftOut left_out_from(const std::string& text, const PixelRect& window)
     };
     if (numbers.size() != 8 || left_out.count == 0 || !is_inside(numbers[1], window.x, window.width) ||
         !is_inside(numbers[2], window.y, window.height) ||
-        numbers[4] > static_cast<std::uint64_t>(Verdict::out_of_range) ||
+        numbers[4] > static_cast<std::uint64_t>(SampleStatus::out_of_range) ||
         std::any_of(numbers.begin() + 5, numbers.end(), [](std::uint64_t bits) { return bits > UINT32_MAX; }))
         reject(name);
     const auto value = [](std::uint64_t bits) {
@@ -226,7 +226,7 @@ LeftOut left_out_from(const std::string& text, const PixelRect& window)
     };
     left_out.first.pixel = {static_cast<int>(numbers[1]), static_cast<int>(numbers[2])};
     left_out.first.index = numbers[3];
-    left_out.first.verdict = static_cast<Verdict>(numbers[4]);
+    left_out.first.status = static_cast<SampleStatus>(numbers[4]);
     left_out.first.value = {value(numbers[5]), value(numbers[6]), value(numbers[7])};
     return left_out;
 }
@@ -352,7 +352,7 @@ std::optional<Metadata> read_state_header(const std::filesystem::path& path)
                 throw Error("the header is enough");
             },
             [](int, std::span<const std::uint32_t>) {});
-    } catch (const Error&) { // that, or it is no picture
+    } catch (const Error&) { // that, or it is no image
     }
     return header;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// How a picture is cut into tiles: a pure function. The cut changes no bit of the picture.
+// How an image is cut into tiles: a pure function. The cut changes no bit of the image.
 
 #include "plumb/image/image.h"
 

@@ -151,7 +151,7 @@ Metadata evidence_header(const Evidence& evidence)
     return header;
 }
 
-Image picture_of(const Film& film, Metadata header, const Evidence& evidence, const OutputSettings& output)
+Image image_of(const Film& film, Metadata header, const Evidence& evidence, const OutputSettings& output)
 {
     Image image = film.develop(output.error_bars ? Channels::color_and_evidence : Channels::color);
     image.metadata = std::move(header);

@@ -27,7 +27,7 @@
 //     plumb:envmapScale
 //     plumb:instructionSet, plumb:embree
 //     plumb:processor         who made it: "GenuineIntel". Its estimates of reciprocals are not those of another maker's
-//     plumb:biased            0 if the picture's expectation is that of the light which its model sends; else 1
+//     plumb:biased            0 if the image's expectation is that of the light which its model sends; else 1
 //     plumb:biases            what makes it differ; only if biased
 //     plumb:model             choices of model; only if there are any
 //     plumb:rmse, plumb:rmseInterval   the root mean squared error that its own noise makes expect, with a 95 %
@@ -41,7 +41,7 @@
 // The header of a state file (state_file.h) has the first part of this, and
 //
 //     plumb:workBiases, plumb:workModel   what the ledger had before the first sample, a line each
-//     plumb:workWanted        samples per pixel of the whole picture; only for a part
+//     plumb:workWanted        samples per pixel of the whole image; only for a part
 //     plumb:workPart          "3/8 by tiles"; only for a part
 //     plumb:workProgram       hash_of_program(): whoever goes on must be the same
 //     plumb:workStop          plumb:stop, when the rendering had ended
@@ -57,8 +57,8 @@ Metadata work_header(const RenderTask& task, const std::optional<PartSettings>& 
 Metadata with_program(Metadata header); // loads the image library
 inline constexpr std::string_view work_prefix = "plumb:work";
 
-// The picture with its whole header.
-Image picture_of(const Film& film, Metadata header, const Evidence& evidence, const OutputSettings& output);
+// The image with its whole header.
+Image image_of(const Film& film, Metadata header, const Evidence& evidence, const OutputSettings& output);
 
 // The path of an input as plumb:inputs has it.
 std::string input_name(const std::filesystem::path& input, const std::filesystem::path& scene_file);

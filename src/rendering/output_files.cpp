@@ -34,7 +34,7 @@ std::filesystem::path free_name(const std::filesystem::path& directory, const st
     return path;
 }
 
-// A picture may have taken long. If its directory is gone it goes into the refuge, or else the current directory. Where it is
+// An image may have taken long. If its directory is gone it goes into the refuge, or else the current directory. Where it is
 // then, for a message; empty: nowhere.
 std::string write_into_refuge(const std::filesystem::path& output, const Image& image, float exposure,
                               Packing packing, const std::filesystem::path& refuge)
@@ -88,8 +88,8 @@ Packing packing_of(const Evidence& evidence)
     return evidence.stop == interruption ? Packing::fast : Packing::small;
 }
 
-void write_pictures(const std::vector<std::string>& outputs, const Image& image, float exposure,
-                    Packing packing, const std::filesystem::path& refuge)
+void write_images(const std::vector<std::string>& outputs, const Image& image, float exposure,
+                  Packing packing, const std::filesystem::path& refuge)
 {
     std::vector<std::string> problem_of(outputs.size());
     parallel_for(outputs.size(), 0, [&](std::size_t i) {

@@ -29,13 +29,13 @@ private:
     std::set<std::filesystem::path> identities_;
 };
 
-// An interrupted picture is written fast: somebody waits, and it will be replaced.
+// An interrupted image is written fast: somebody waits, and it will be replaced.
 Packing packing_of(const Evidence& evidence);
 
-// Writes the picture to all of these, at the same time. One that cannot be written does not keep the others from being
+// Writes the image to all of these, at the same time. One that cannot be written does not keep the others from being
 // tried; if its directory is gone, it is written into `refuge` instead, or into the current directory. Throws Error, with
 // where it is then, if any was not written where it was to be.
-void write_pictures(const std::vector<std::string>& outputs, const Image& image, float exposure,
-                    Packing packing, const std::filesystem::path& refuge);
+void write_images(const std::vector<std::string>& outputs, const Image& image, float exposure,
+                  Packing packing, const std::filesystem::path& refuge);
 
 } // namespace plumb

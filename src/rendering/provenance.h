@@ -29,7 +29,7 @@ int language_of(const Metadata& header);
 std::optional<std::uint64_t> header_samples(const Metadata& header, std::string_view name,
                                             const std::string& file);
 
-// The settings that made the picture: settings_header.h.
+// The settings that made the image: settings_header.h.
 RenderSettings header_settings(const Metadata& header, const std::string& file);
 
 // Whether the inputs are told by the hashes that Plumb 0.1 wrote: they are not comparable with SHA-256.

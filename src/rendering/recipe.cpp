@@ -118,7 +118,7 @@ Image rerun(const Recipe& recipe, const std::filesystem::path& scene_file, int t
     const RenderTask task = make_task(recipe, file);
     RenderSession session(task, {.threads = threads, .again = samples_again(recipe, task)}, callbacks);
     session.run();
-    return session.picture();
+    return session.image();
 }
 
 } // namespace plumb

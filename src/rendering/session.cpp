@@ -259,9 +259,9 @@ Evidence RenderSession::evidence() const
     return make_evidence(make_ledger(task.scene.job, task.scene.dialect), state(), impl_->stop);
 }
 
-Image RenderSession::picture(const Evidence& evidence) const
+Image RenderSession::image(const Evidence& evidence) const
 {
-    return picture_of(state().film, scene_header(impl_->task), evidence, impl_->task.settings.output);
+    return image_of(state().film, scene_header(impl_->task), evidence, impl_->task.settings.output);
 }
 
 } // namespace plumb

@@ -33,7 +33,7 @@ void check_language(const StateFile& part, const std::string& name)
                                 name, was, language_version));
 }
 
-// Throws Error if the part is not one of the same picture, or has samples that are there already.
+// Throws Error if the part is not one of the same image, or has samples that are there already.
 void check_part(const Work& work, const StateFile& part, const std::string& name)
 {
     const std::string first = work.parts.front().file.string();
@@ -159,11 +159,11 @@ Evidence evidence_of(const Work& work)
     return make_evidence(ledger, work.file.state, header_text(header, "plumb:workStop"));
 }
 
-Image picture_of(const Work& work, const Evidence& evidence)
+Image image_of(const Work& work, const Evidence& evidence)
 {
     Metadata header = work.file.header;
     std::erase_if(header, [](const auto& entry) { return entry.first.starts_with(work_prefix); });
-    return picture_of(work.file.state.film, std::move(header), evidence, work.settings.output);
+    return image_of(work.file.state.film, std::move(header), evidence, work.settings.output);
 }
 
 void save_work(const Work& work, const std::filesystem::path& file)

@@ -12,12 +12,12 @@ namespace plumb {
 
 namespace {
 
-std::string_view verdict_of(CompareOutcome outcome)
+std::string_view verdict_of(Verdict verdict)
 {
     switch (outcome) {
-    case CompareOutcome::passes: return "agree";
-    case CompareOutcome::differs: return "differ";
-    case CompareOutcome::undecided: return "undecided";
+    case Verdict::passes: return "agree";
+    case Verdict::differs: return "differ";
+    case Verdict::undecided: return "undecided";
     }
     return "";
 }
@@ -28,11 +28,11 @@ std::string pair_text(const Agreement& agreement, const MethodPair& pair)
     const Significance& found = pair.comparison.significance;
     std::string text = fmt::format(
         "  {} and {}: {}, p {:.3g}", agreement.estimates[pair.a].name, agreement.estimates[pair.b].name,
-        pair.comparison.outcome == CompareOutcome::passes ? "agree" : outcome_word(pair.comparison.outcome),
+        pair.comparison.verdict == Verdict::passes ? "agree" : verdict_word(pair.comparison.verdict),
         found.p);
-    if (pair.comparison.outcome == CompareOutcome::undecided && !found.reason.empty())
+    if (pair.comparison.verdict == Verdict::undecided && !found.reason.empty())
         text += fmt::format(" ({})", found.reason);
-    if (pair.comparison.outcome == CompareOutcome::passes && found.differing + found.untested > 0)
+    if (pair.comparison.verdict == Verdict::passes && found.differing + found.untested > 0)
         text += fmt::format(" ({} of {} pixels differ, {} are undecided)", found.differing, found.pixels,
                             found.untested);
     if (found.detectable_bias)
@@ -52,12 +52,12 @@ std::string pairs_text(const Agreement& agreement)
 // one that rarely finds some of the light.
 std::string advice(const Agreement& agreement)
 {
-    if (agreement.outcome != CompareOutcome::undecided) return {};
+    if (agreement.verdict != Verdict::undecided) return {};
     std::string names;
     for (std::size_t i = 0; i < agreement.estimates.size(); ++i) {
         const bool is_shared =
             std::all_of(agreement.pairs.begin(), agreement.pairs.end(), [&](const MethodPair& pair) {
-                return pair.comparison.outcome != CompareOutcome::undecided || pair.a == i || pair.b == i;
+                return pair.comparison.verdict != Verdict::undecided || pair.a == i || pair.b == i;
             });
         if (agreement.estimates.size() > 2 && is_shared)
             names += (names.empty() ? "" : " or ") + agreement.estimates[i].name;
@@ -72,7 +72,7 @@ void write_verdict(JsonWriter& json, const std::string& scene, const Agreement& 
                    const CompareSettings& how)
 {
     json.text("scene", scene);
-    json.text("verdict", verdict_of(agreement.outcome));
+    json.text("verdict", verdict_of(agreement.verdict));
     json.number("significance", how.significance);
 }
 
@@ -84,7 +84,7 @@ void write_pairs(JsonWriter& json, const Agreement& agreement)
         json.begin_object();
         json.text("a", agreement.estimates[pair.a].name);
         json.text("b", agreement.estimates[pair.b].name);
-        json.text("outcome", outcome_word(pair.comparison.outcome));
+        json.text("outcome", verdict_word(pair.comparison.verdict));
         if (!found.reason.empty()) json.text("reason", found.reason);
         json.number("p", found.p);
         if (const auto& bias = found.detectable_bias)
@@ -126,7 +126,7 @@ std::string agreement_text(const std::string& scene, const Agreement& agreement)
             fmt::format("  {}: {} samples per pixel\n", agreement.estimates[i].name, agreement.samples_of[i]);
     return text + pairs_text(agreement) +
            fmt::format("{}; errors shared by all estimators cannot be detected\n",
-                       verdict_of(agreement.outcome)) +
+                       verdict_of(agreement.verdict)) +
            advice(agreement);
 }
 
@@ -152,7 +152,7 @@ std::string race_text(const std::string& scene, const RaceResult& race)
 {
     return fmt::format("{}: {} rounds of {} samples per pixel\n", visible_text(scene), race.rounds,
                        race.samples_per_pixel) +
-           table_text(race) + pairs_text(race.means) + fmt::format("{}\n", verdict_of(race.means.outcome)) +
+           table_text(race) + pairs_text(race.means) + fmt::format("{}\n", verdict_of(race.means.verdict)) +
            advice(race.means);
 }
 

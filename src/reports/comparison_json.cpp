@@ -7,13 +7,13 @@ namespace plumb {
 
 namespace {
 
-std::string_view finding_word(Finding finding)
+std::string_view finding_word(std::optional<Verdict> verdict)
 {
-    switch (finding) {
-    case Finding::not_asked: return "not asked";
-    case Finding::same: return "same";
-    case Finding::different: return "different";
-    case Finding::undecided: return "undecided";
+    if (!verdict) return "not asked";
+    switch (*verdict) {
+    case Verdict::passes: return "same";
+    case Verdict::differs: return "different";
+    case Verdict::undecided: return "undecided";
     }
     return "";
 }
@@ -158,7 +158,7 @@ void write_significance(JsonWriter& json, const Comparison& c, const CompareSett
 {
     const Significance& s = c.significance;
     json.begin_object("noise");
-    json.text("finding", finding_word(s.finding));
+    json.text("finding", finding_word(s.verdict));
     if (!s.reason.empty()) json.text("reason", s.reason);
     json.number("significance", options.significance);
     json.text("error_bars_a", c.noise_a);
@@ -200,7 +200,7 @@ void write_limits(JsonWriter& json, const Comparison& c, const CompareSettings& 
 
 void write_comparison(JsonWriter& json, const Comparison& comparison, const CompareSettings& options)
 {
-    json.text("outcome", outcome_word(comparison.outcome));
+    json.text("outcome", verdict_word(comparison.verdict));
     json.boolean("identical", comparison.identical);
     json.begin_array("resolution");
     json.number({}, comparison.width);

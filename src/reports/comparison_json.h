@@ -6,7 +6,7 @@
 
 namespace plumb {
 
-// The members of comparison_json() but for the names of the pictures.
+// The members of comparison_json() but for the names of the images.
 void write_comparison(JsonWriter& json, const Comparison& comparison, const CompareSettings& settings);
 
 } // namespace plumb

@@ -105,14 +105,14 @@ std::string noise_text(const Comparison& c)
 
 std::string finding_text(const Significance& s, const CompareSettings& options)
 {
-    switch (s.finding) {
-    case Finding::not_asked: return fmt::format("no verdict on the noise: {}", s.reason);
-    case Finding::same:
+    if (!s.verdict) return fmt::format("no verdict on the noise: {}", s.reason);
+    switch (*s.verdict) {
+    case Verdict::passes:
         return fmt::format("no difference beyond the noise at significance {}", options.significance);
-    case Finding::different:
+    case Verdict::differs:
         return fmt::format("a difference beyond the noise at significance {}: {} of the pixels differ",
                            options.significance, percent(s.differing, s.pixels));
-    case Finding::undecided: return fmt::format("undecided: {}", s.reason);
+    case Verdict::undecided: return fmt::format("undecided: {}", s.reason);
     }
     return {};
 }
@@ -164,12 +164,12 @@ std::string p_text(double p, int digits)
     return p < 1e-300 ? "< 1e-300" : fmt::format("{:.{}g}", p, digits);
 }
 
-std::string_view outcome_word(CompareOutcome outcome)
+std::string_view verdict_word(Verdict verdict)
 {
     switch (outcome) {
-    case CompareOutcome::passes: return "passes";
-    case CompareOutcome::differs: return "differs";
-    case CompareOutcome::undecided: return "undecided";
+    case Verdict::passes: return "passes";
+    case Verdict::differs: return "differs";
+    case Verdict::undecided: return "undecided";
     }
     return "";
 }
@@ -182,15 +182,15 @@ std::string comparison_text(const Comparison& comparison, const CompareSettings&
     else
         text += significance_text(comparison, options);
     text += threshold_text(comparison, options);
-    return text + fmt::format("{}\n", outcome_word(comparison.outcome));
+    return text + fmt::format("{}\n", verdict_word(comparison.verdict));
 }
 
-int exit_code_of(CompareOutcome outcome)
+int exit_code_of(Verdict verdict)
 {
     switch (outcome) {
-    case CompareOutcome::passes: return exit_code::done;
-    case CompareOutcome::differs: return exit_code::differs;
-    case CompareOutcome::undecided: return exit_code::undecided;
+    case Verdict::passes: return exit_code::done;
+    case Verdict::differs: return exit_code::differs;
+    case Verdict::undecided: return exit_code::undecided;
     }
     return exit_code::undecided;
 }

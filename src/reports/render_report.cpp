@@ -31,7 +31,7 @@ void write_dialect(JsonWriter& json, const Dialect& dialect)
     json.end_object();
 }
 
-void write_picture(JsonWriter& json, const Report& report)
+void write_image(JsonWriter& json, const Report& report)
 {
     const auto integers = [&](const char* key, const std::vector<int>& values) {
         json.begin_array(key);
@@ -68,7 +68,7 @@ void write_work(JsonWriter& json, const Report& report)
     json.integer("meshes", report.memory.meshes);
     json.integer("acceleration", report.memory.acceleration);
     json.integer("acceleration_while_built", report.memory.acceleration_peak);
-    json.integer("textures", report.memory.pictures + report.texture_bytes);
+    json.integer("textures", report.memory.images + report.texture_bytes);
     json.integer("film", report.film_bytes);
     json.end_object();
     json.integer("peak_memory_bytes", report.peak_memory);
@@ -86,7 +86,7 @@ void write_left_out(JsonWriter& json, const LeftOut& left_out)
         json.integer({}, static_cast<std::uint64_t>(first.pixel.y));
         json.end_array();
         json.integer("sample", first.index);
-        json.text("why", verdict_text(first.verdict));
+        json.text("why", status_text(first.status));
         json.text("value", color_text(first.value)); // JSON has no number for what it often is
         json.end_object();
     } else {
@@ -245,7 +245,7 @@ std::string report_json(const Report& report)
     write_dialect(json, report.dialect);
     json.text("integrator", report.integrator);
     json.text("sampler", report.sampler);
-    write_picture(json, report);
+    write_image(json, report);
     write_work(json, report);
     write_left_out(json, report.evidence.left_out);
     write_evidence(json, report);

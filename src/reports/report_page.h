@@ -5,7 +5,7 @@
 
 namespace plumb {
 
-// The text of report.html. {{title}}, {{data}} and {{pictures}} stand for what a run puts there.
+// The text of report.html. {{title}}, {{data}} and {{images}} stand for what a run puts there.
 extern const std::string_view report_page;
 
 } // namespace plumb

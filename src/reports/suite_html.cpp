@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 
-// report.html: the results as JSON and the pictures as base64, inside the page of report.html.
+// report.html: the results as JSON and the images as base64, inside the page of report.html.
 
-#include "reports/picture_data.h"
+#include "reports/image_data.h"
 #include "reports/report_page.h"
 #include "reports/suite_json.h"
 
@@ -18,7 +18,7 @@ namespace plumb {
 
 namespace {
 
-// A browser should still like the page: about a hundred megabytes of pictures.
+// A browser should still like the page: about a hundred megabytes of images.
 constexpr double most_pixels = 18e6;
 
 std::string read_bytes(const std::string& file)
@@ -27,12 +27,12 @@ std::string read_bytes(const std::string& file)
     return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
-// By how much the pictures must shrink so that all of them are not too many pixels together.
-int reduction_for(const Image& image, std::size_t pictures)
+// By how much the images must shrink so that all of them are not too many pixels together.
+int reduction_for(const Image& image, std::size_t images)
 {
     const double pixels = static_cast<double>(image.data_window().width) * image.data_window().height;
     int reduction = 1;
-    while (pixels / (reduction * reduction) * static_cast<double>(pictures) > most_pixels) ++reduction;
+    while (pixels / (reduction * reduction) * static_cast<double>(images) > most_pixels) ++reduction;
     return reduction;
 }
 
@@ -53,17 +53,17 @@ std::string html_text(std::string_view text)
 
 class PageWriter {
 public:
-    PageWriter(const SuiteRun& run, const SuitePictures& pictures) : run_(run), shown_(pictures) {}
+    PageWriter(const SuiteRun& run, const ShownImages& images) : run_(run), shown_(images) {}
 
     std::string write()
     {
         json_.begin_object();
         write_summary(json_, run_);
-        json_.begin_array("pictures");
+        json_.begin_array("images");
         for (const SuiteResult& result : run_.results) {
             json_.begin_object();
             write_result(json_, result);
-            write_pictures(result);
+            write_images(result);
             json_.end_object();
         }
         json_.end_array();
@@ -78,20 +78,20 @@ public:
         };
         put("{{title}}", html_text(run_.suite));
         put("{{data}}", script_text(std::move(json_).finish()));
-        put("{{pictures}}", pictures_);
+        put("{{images}}", images_);
         return page.append(rest);
     }
 
 private:
-    void write_pictures(const SuiteResult& result)
+    void write_images(const SuiteResult& result)
     {
-        const SuitePictures::Shown* shown = shown_.find(result.title);
+        const ShownImages::Shown* shown = shown_.find(result.title);
         if (!shown) return;
         json_.begin_object("shown");
         json_.integer("width", static_cast<std::uint64_t>(shown->width));
         json_.integer("height", static_cast<std::uint64_t>(shown->height));
         json_.integer("reduction", static_cast<std::uint64_t>(shown->reduction));
-        add("picture", shown->picture);
+        add("image", shown->image);
         if (!shown->reference.empty()) add("reference", shown->reference);
         if (!result.difference.empty()) add("difference", read_bytes(result.difference));
         json_.end_object();
@@ -101,45 +101,45 @@ private:
     void add(std::string_view key, const std::string& bytes)
     {
         json_.text(key, fmt::format("data-{}", number_));
-        pictures_ +=
+        images_ +=
             fmt::format("<script type=\"text/plain\" id=\"data-{}\">{}</script>\n", number_++, base64(bytes));
     }
 
     const SuiteRun& run_;
-    const SuitePictures& shown_;
+    const ShownImages& shown_;
     JsonWriter json_;
-    std::string pictures_;
+    std::string images_;
     int number_ = 0;
 };
 
 } // namespace
 
-SuitePictures::SuitePictures(std::size_t count) : count_(count) {}
+ShownImages::ShownImages(std::size_t count) : count_(count) {}
 
-void SuitePictures::add(const SuiteResult& result, const SuiteImages& images)
+void ShownImages::add(const SuiteResult& result, const SuiteImages& images)
 {
-    if (!images.picture || result.picture.empty()) return;
-    const int reduction = reduction_for(*images.picture, count_);
-    const PixelRect& window = images.picture->data_window();
+    if (!images.image || result.image.empty()) return;
+    const int reduction = reduction_for(*images.image, count_);
+    const PixelRect& window = images.image->data_window();
     Shown& shown = shown_[result.title];
     shown = {reduced_size(window.width, reduction),
              reduced_size(window.height, reduction),
              reduction,
-             shared_exponent_bytes(*images.picture, reduction),
+             shared_exponent_bytes(*images.image, reduction),
              {}};
     if (result.comparison && images.reference)
         shown.reference = shared_exponent_bytes(*images.reference, reduction);
 }
 
-const SuitePictures::Shown* SuitePictures::find(const std::string& title) const
+const ShownImages::Shown* ShownImages::find(const std::string& title) const
 {
     const auto found = shown_.find(title);
     return found == shown_.end() ? nullptr : &found->second;
 }
 
-std::string suite_html(const SuiteRun& run, const SuitePictures& pictures)
+std::string suite_html(const SuiteRun& run, const ShownImages& images)
 {
-    return PageWriter(run, pictures).write();
+    return PageWriter(run, images).write();
 }
 
 } // namespace plumb

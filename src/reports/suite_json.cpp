@@ -20,11 +20,11 @@ void write_text_or_null(JsonWriter& json, std::string_view key, const std::strin
 void write_result(JsonWriter& json, const SuiteResult& result)
 {
     json.text("name", result.title);
-    json.text("verdict", verdict_word(result.verdict));
+    json.text("verdict", result_word(result));
     json.text("reason", reason_text(result));
     json.text("scene", result.scene);
     json.text("command", result.command);
-    write_text_or_null(json, "picture", result.picture);
+    write_text_or_null(json, "image", result.image);
     write_text_or_null(json, "reference", result.reference);
     write_text_or_null(json, "difference", result.difference);
     json.boolean("up_to_date", result.up_to_date);
@@ -56,9 +56,12 @@ void write_summary(JsonWriter& json, const SuiteRun& run)
     json.integer("exit_code", static_cast<std::uint64_t>(exit_code_of(run)));
     json.number("seconds", run.seconds);
     json.begin_object("counts");
-    for (const SuiteVerdict verdict : {SuiteVerdict::passes, SuiteVerdict::rendered, SuiteVerdict::differs,
-                                       SuiteVerdict::undecided, SuiteVerdict::error, SuiteVerdict::not_run})
-        json.integer(verdict_word(verdict), run.count(verdict));
+    json.integer("passes", run.count(Verdict::passes));
+    json.integer("rendered", run.count(JobState::rendered));
+    json.integer("differs", run.count(Verdict::differs));
+    json.integer("undecided", run.count(Verdict::undecided));
+    json.integer("error", run.count(JobState::failed));
+    json.integer("not run", run.count(JobState::not_run));
     json.end_object();
 }
 
@@ -67,7 +70,7 @@ std::string suite_json(const SuiteRun& run)
     JsonWriter json;
     json.begin_object();
     write_summary(json, run);
-    json.begin_array("pictures");
+    json.begin_array("images");
     for (const SuiteResult& result : run.results) {
         json.begin_object();
         write_result(json, result);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-// junit.xml, as continuous integration reads it: a test case for each picture. Undecided is a failure, for it is no
+// junit.xml, as continuous integration reads it: a test case for each image. Undecided is a failure, for it is no
 // agreement.
 
 #include "base/text.h"
@@ -55,20 +55,11 @@ std::string details(const SuiteResult& result)
 std::string outcome(const SuiteResult& result)
 {
     const std::string message = xml_text(reason_text(result));
-    switch (result.verdict) {
-    case SuiteVerdict::made:
-    case SuiteVerdict::passes:
-    case SuiteVerdict::rendered: return {};
-    case SuiteVerdict::not_run: return fmt::format("      <skipped message=\"{}\"/>\n", message);
-    case SuiteVerdict::error:
-        return fmt::format("      <error type=\"error\" message=\"{}\">{}</error>\n", message,
-                           xml_text(details(result)));
-    case SuiteVerdict::differs:
-    case SuiteVerdict::undecided:
-        return fmt::format("      <failure type=\"{}\" message=\"{}\">{}</failure>\n",
-                           verdict_word(result.verdict), message, xml_text(details(result)));
-    }
-    return {};
+    if (result.state == JobState::not_run) return fmt::format("      <skipped message=\"{}\"/>\n", message);
+    if (!result.is_failure()) return {};
+    const std::string_view element = result.state == JobState::failed ? "error" : "failure";
+    return fmt::format("      <{0} type=\"{1}\" message=\"{2}\">{3}</{0}>\n", element, result_word(result),
+                       message, xml_text(details(result)));
 }
 
 } // namespace
@@ -78,8 +69,8 @@ std::string suite_junit(const SuiteRun& run)
     const std::string suite = xml_text(std::filesystem::path(run.suite).stem().string());
     const std::string counts =
         fmt::format(R"(tests="{}" failures="{}" errors="{}" skipped="{}" time="{:.3f}")", run.results.size(),
-                    run.count(SuiteVerdict::differs) + run.count(SuiteVerdict::undecided),
-                    run.count(SuiteVerdict::error), run.count(SuiteVerdict::not_run), run.seconds);
+                    run.count(Verdict::differs) + run.count(Verdict::undecided), run.count(JobState::failed),
+                    run.count(JobState::not_run), run.seconds);
     std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
     text += fmt::format("<testsuites {}>\n  <testsuite name=\"{}\" {}>\n", counts, suite, counts);
     for (const SuiteResult& result : run.results) {

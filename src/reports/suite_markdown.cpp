@@ -48,10 +48,10 @@ std::string suite_markdown(const SuiteRun& run)
     for (const SuiteResult& result : run.results) {
         std::optional<double> rmse;
         if (result.comparison) rmse = result.comparison->metrics.rmse;
-        const bool failed = result.verdict > SuiteVerdict::passes;
+        const bool failed = result.is_failure();
         text += fmt::format("| {} | {} | {} | {} | {} | {} |\n", cell(result.title),
-                            failed ? fmt::format("**{}**", verdict_word(result.verdict))
-                                   : std::string(verdict_word(result.verdict)),
+                            failed ? fmt::format("**{}**", result_word(result))
+                                   : std::string(result_word(result)),
                             number(rmse), number(result.noise),
                             result.up_to_date ? "up to date" : fmt::format("{:.1f}", result.seconds),
                             cell(reason_text(result)));

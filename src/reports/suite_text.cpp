@@ -16,50 +16,41 @@ namespace plumb {
 
 namespace {
 
-constexpr SuiteVerdict all_verdicts[] = {
-    SuiteVerdict::made,      SuiteVerdict::passes, SuiteVerdict::rendered, SuiteVerdict::differs,
-    SuiteVerdict::undecided, SuiteVerdict::error,  SuiteVerdict::not_run};
-
-// "3 pass" where verdict_word() says "passes".
-std::string_view plural_of(SuiteVerdict verdict)
-{
-    switch (verdict) {
-    case SuiteVerdict::passes: return "pass";
-    case SuiteVerdict::differs: return "differ";
-    case SuiteVerdict::error: return "errors";
-    default: return verdict_word(verdict);
-    }
-}
+// In the order of the summary. "3 pass" where "1 passes".
+struct ResultWord {
+    std::string_view one, more;
+};
+constexpr ResultWord all_words[] = {
+    {"made", "made"},           {"passes", "pass"},  {"rendered", "rendered"}, {"differs", "differ"},
+    {"undecided", "undecided"}, {"error", "errors"}, {"not run", "not run"}};
 
 } // namespace
 
 int exit_code_of(const SuiteRun& run)
 {
     if (run.signal != 0) return exit_code::signal + run.signal;
-    if (run.count(SuiteVerdict::error) > 0) return exit_code::error;
-    if (run.count(SuiteVerdict::differs) > 0) return exit_code::differs;
-    if (run.count(SuiteVerdict::undecided) > 0) return exit_code::undecided;
+    if (run.count(JobState::failed) > 0) return exit_code::error;
+    if (run.count(Verdict::differs) > 0) return exit_code::differs;
+    if (run.count(Verdict::undecided) > 0) return exit_code::undecided;
     return exit_code::done;
 }
 
-std::string_view verdict_word(SuiteVerdict verdict)
+std::string_view result_word(const SuiteResult& result)
 {
-    switch (verdict) {
-    case SuiteVerdict::not_run: return "not run";
-    case SuiteVerdict::made: return "made";
-    case SuiteVerdict::rendered: return "rendered";
-    case SuiteVerdict::passes: return "passes";
-    case SuiteVerdict::undecided: return "undecided";
-    case SuiteVerdict::differs: return "differs";
-    case SuiteVerdict::error: return "error";
+    switch (result.state) {
+    case JobState::not_run: return "not run";
+    case JobState::made: return "made";
+    case JobState::rendered: return "rendered";
+    case JobState::compared: return verdict_word(result.verdict.value_or(Verdict::undecided));
+    case JobState::failed: return "error";
     }
     return "";
 }
 
 std::string reason_text(const SuiteResult& result)
 {
-    if (result.verdict == SuiteVerdict::error) return result.problem.substr(0, result.problem.find('\n'));
-    if (result.verdict == SuiteVerdict::not_run) return "the batch ended before";
+    if (result.state == JobState::failed) return result.problem.substr(0, result.problem.find('\n'));
+    if (result.state == JobState::not_run) return "the batch ended before";
     if (!result.comparison) return {};
     const Comparison& comparison = *result.comparison;
     const Significance& noise = comparison.significance;
@@ -72,22 +63,24 @@ std::string reason_text(const SuiteResult& result)
     if (broken.only_a + broken.only_b > 0)
         reasons.push_back(fmt::format("{} pixels are not finite in one of the images, the first is {},{}",
                                       broken.only_a + broken.only_b, broken.first->x, broken.first->y));
-    if (noise.finding == Finding::different && noise.p < result.how.significance)
+    if (noise.verdict == Verdict::differs && noise.p < result.how.significance)
         reasons.push_back(fmt::format("the difference exceeds the noise: p {}, {:.3g} % of the pixels",
                                       p_text(noise.p),
                                       100.0 * static_cast<double>(noise.differing) /
                                           static_cast<double>(std::max<std::uint64_t>(noise.pixels, 1))));
-    if (result.verdict == SuiteVerdict::undecided && !noise.reason.empty()) reasons.push_back(noise.reason);
+    if (result.verdict == Verdict::undecided && !noise.reason.empty()) reasons.push_back(noise.reason);
     return list_text(reasons);
 }
 
 std::string summary_text(const SuiteRun& run)
 {
     std::vector<std::string> parts;
-    for (const SuiteVerdict verdict : all_verdicts)
-        if (const std::size_t count = run.count(verdict); count > 0)
-            parts.push_back(
-                fmt::format("{} {}", count, count == 1 ? verdict_word(verdict) : plural_of(verdict)));
+    for (const ResultWord& word : all_words) {
+        const auto count =
+            std::count_if(run.results.begin(), run.results.end(),
+                          [&](const SuiteResult& result) { return result_word(result) == word.one; });
+        if (count > 0) parts.push_back(fmt::format("{} {}", count, count == 1 ? word.one : word.more));
+    }
     std::string text = fmt::format("{}", fmt::join(parts, ", "));
     const auto up_to_date = std::count_if(run.results.begin(), run.results.end(),
                                           [](const SuiteResult& result) { return result.up_to_date; });
@@ -102,25 +95,24 @@ std::string result_line(const SuiteResult& result, std::size_t title_width)
     };
     std::optional<double> rmse;
     if (result.comparison) rmse = result.comparison->metrics.rmse;
-    std::string line =
-        fmt::format("{:<{}}  {:<9}  {}  {}  {}", visible_text(result.title), title_width,
-                    verdict_word(result.verdict), number("rmse", rmse), number("noise", result.noise),
-                    result.up_to_date                         ? "up to date"
-                    : result.verdict == SuiteVerdict::not_run ? ""
-                                                              : duration_text(result.seconds));
+    std::string line = fmt::format("{:<{}}  {:<9}  {}  {}  {}", visible_text(result.title), title_width,
+                                   result_word(result), number("rmse", rmse), number("noise", result.noise),
+                                   result.up_to_date                   ? "up to date"
+                                   : result.state == JobState::not_run ? ""
+                                                                       : duration_text(result.seconds));
     line.erase(line.find_last_not_of(' ') + 1);
-    if (result.verdict == SuiteVerdict::error) return line + "\n" + result.problem + "\n";
-    const std::string reason = result.verdict == SuiteVerdict::not_run ? "" : reason_text(result);
+    if (result.state == JobState::failed) return line + "\n" + result.problem + "\n";
+    const std::string reason = result.state == JobState::not_run ? "" : reason_text(result);
     return line + "\n" + (reason.empty() ? "" : "    " + reason + "\n");
 }
 
-void write_suite_reports(const SuiteRun& run, const SuitePictures& pictures,
+void write_suite_reports(const SuiteRun& run, const ShownImages& images,
                          const std::filesystem::path& directory)
 {
     write_text_file(directory / "report.json", suite_json(run));
     write_text_file(directory / "junit.xml", suite_junit(run));
     write_text_file(directory / "summary.md", suite_markdown(run));
-    write_text_file(directory / "report.html", suite_html(run, pictures));
+    write_text_file(directory / "report.html", suite_html(run, images));
 }
 
 void check_suite_reports(const std::filesystem::path& directory)

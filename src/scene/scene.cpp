@@ -178,7 +178,7 @@ SceneMemory Scene::memory() const
     SceneMemory memory = accel_->memory();
     for_each_object([&](const SceneObject& object) { memory.meshes += object.shape->memory_bytes(); });
     memory.meshes += instances_.capacity() * sizeof(Instance);
-    for (const auto& light : lights_) memory.pictures += light->memory_bytes();
+    for (const auto& light : lights_) memory.images += light->memory_bytes();
     return memory;
 }
 

@@ -27,8 +27,8 @@ Property integer_property(std::uint64_t value)
     return property;
 }
 
-// Bytes for a picture of beauty alone: the film, the picture that it becomes, and a copy for writing.
-double picture_bytes(double pixels)
+// Bytes for an image of beauty alone: the film, the image that it becomes, and a copy for writing.
+double image_bytes(double pixels)
 {
     return pixels * static_cast<double>(Film::bytes_per_pixel() + 2 * 3 * sizeof(float));
 }
@@ -167,7 +167,7 @@ void SceneBuilder::check_memory(Vec2i resolution, const ViewSettings& view)
 {
     const double pixels = static_cast<double>(resolution.x) * static_cast<double>(resolution.y);
     const double needed =
-        picture_bytes(view.crop ? static_cast<double>(view.crop->width) * view.crop->height : pixels);
+        image_bytes(view.crop ? static_cast<double>(view.crop->width) * view.crop->height : pixels);
     const auto available = available_memory();
     if (!available || needed <= static_cast<double>(*available)) return;
     SourceLocation at;

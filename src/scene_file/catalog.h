@@ -44,7 +44,7 @@ struct IgnoredParameter {
     std::string_view kind; // empty: every kind
     std::string_view type; // empty: every type
     std::string_view name;
-    std::string_view instead;         // the parameter that is read, if the picture could be meant to differ
+    std::string_view instead;         // the parameter that is read, if the image could be meant to differ
     std::string_view instead_default; // what it is when it is not given
 };
 const IgnoredParameter* find_ignored(std::string_view kind, std::string_view type, std::string_view name);

@@ -42,7 +42,7 @@ struct DialectChoice {
 DialectChoice choose_dialect(const Element& root, const DialectWishes& wishes, Diagnostics& diagnostics);
 
 // Warns of what other readings, which the evidence leaves open and the command line does not close, would change in
-// this picture. scene: that was built of the root; null for a <test>, which has no view.
+// this image. scene: that was built of the root; null for a <test>, which has no view.
 void warn_of_open_readings(const Element& root, const DialectChoice& choice, const DialectWishes& wishes,
                            const Scene* scene, Diagnostics& diagnostics);
 

@@ -14,7 +14,7 @@ struct Beginning {
     std::string_view kind;
 };
 
-constexpr Beginning pictures[] = {
+constexpr Beginning images[] = {
     {"\x76\x2f\x31\x01", "OpenEXR"}, {"\x89PNG", "PNG"},         {"\xff\xd8\xff", "JPEG"},
     {"#?RADIANCE", "Radiance HDR"},  {"#?RGBE", "Radiance HDR"}, {"PF\n", "PFM"},
 };
@@ -68,11 +68,11 @@ const Element* find_mitsuba(const Element& element)
 
 std::optional<std::string> foreign_content(std::string_view text)
 {
-    for (const Beginning& picture : pictures)
-        if (text.starts_with(picture.bytes))
+    for (const Beginning& image : images)
+        if (text.starts_with(image.bytes))
             return fmt::format(
                 "this is an image ({}), not a scene; 'renderer info' prints what is in its header",
-                picture.kind);
+                image.kind);
     for (const Beginning& other : others)
         if (text.starts_with(other.bytes)) return fmt::format("this is {}", other.kind);
     const std::string_view word = first_word(text);

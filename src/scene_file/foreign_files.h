@@ -7,7 +7,7 @@
 
 namespace plumb {
 
-// What a file is if its first bytes show that it is no XML of ours: "this is a picture (OpenEXR), not a scene; ...".
+// What a file is if its first bytes show that it is no XML of ours: "this is an image (OpenEXR), not a scene; ...".
 // Nothing for other files.
 std::optional<std::string> foreign_content(std::string_view text);
 

@@ -68,7 +68,7 @@ constexpr Row rows[] = {
     {"default", "", "", plumb_files, MarkWeight::sign},
 };
 
-// A factor of an environment's picture that is there to undo a division by 255.
+// A factor of an environment's image that is there to undo a division by 255.
 constexpr double undoing_factor = 100.0;
 
 constexpr const char* sphere_with_path_mis = "'sphere' with 'path_mis'";

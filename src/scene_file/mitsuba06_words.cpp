@@ -162,7 +162,7 @@ constexpr Refusal refusals[] = {
     {"bsdf", "mixturebsdf", "use 'blendbsdf'"},
     {"emitter", "sun", "use 'directional'"},
     {"emitter", "collimated", "use 'spot' with a small cutoffAngle"},
-    {"texture", "scale", "scale the picture itself"},
+    {"texture", "scale", "scale the image itself"},
     {"texture", "vertexcolors", "export the mesh as .ply and use 'mesh_attribute'"},
 };
 

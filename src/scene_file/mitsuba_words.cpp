@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::string_view vacuum = "Plumb renders surfaces in a vacuum only";
 constexpr std::string_view as_mesh = "export it as a mesh";
-constexpr std::string_view as_envmap = "render it to a picture and use 'envmap'";
+constexpr std::string_view as_envmap = "render it to an image and use 'envmap'";
 constexpr std::string_view estimates_light = "Plumb's integrators are estimators of light; use 'path'";
 constexpr std::string_view same_light =
     "this is rendered by 'path', which finds the same light up to noise (path_mis in 'renderer types')";

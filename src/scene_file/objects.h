@@ -18,7 +18,7 @@ struct LoadContext {
     const Dialect& dialect;
     bool lenient = false;
     std::vector<std::filesystem::path> files; // that plugins read, in order, each once
-    std::uint64_t texture_bytes = 0;          // of the pictures in textures
+    std::uint64_t texture_bytes = 0;          // of the images in textures
     SharedObjects* shared = nullptr;          // never null where BSDFs are built
     int bsdf_depth = 0;                       // how many BSDFs are around what is being built
     const Vocabulary* vocabulary = nullptr;   // the file's, for messages; null: our own words

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What other readings of a scene would change in its picture.
+// What other readings of a scene would change in its image.
 
 #include "plumb/scene/scene.h"
 #include "scene_file/dialects.h"
@@ -12,7 +12,7 @@ namespace plumb {
 
 namespace {
 
-// Integrators whose pictures do not depend on what emitters do to light.
+// Integrators whose images do not depend on what emitters do to light.
 constexpr std::string_view blind_integrators[] = {"normals", "depth", "ao", "av", "simple"};
 
 const Element* child_named(const Element& element, std::string_view name)
@@ -34,7 +34,7 @@ struct Stakes {
     bool sees_emitters = true;
     bool has_reflecting_lamp = false;
     bool has_sun = false;
-    bool has_picture_around = false; // an environment with a file
+    bool has_image_around = false; // an environment with a file
 
     explicit Stakes(const Element& root) { visit(root); }
 
@@ -48,7 +48,7 @@ private:
             sees_emitters = false;
         if (element.tag == "emitter" && type == "directional") has_sun = true;
         if (element.tag == "emitter" && type == "environment" && child_named(element, "filename"))
-            has_picture_around = true;
+            has_image_around = true;
         if (element.tag == "mesh" || element.tag == "shape") visit_shape(element);
         for (const Element& child : element.children) visit(child);
     }
@@ -89,7 +89,7 @@ public:
         : stakes_(root), read_(choice.dialect), wishes_(wishes), scene_(scene)
     {}
 
-    // "for eth the view is mirrored (--mirror on)"; empty: the picture is the same.
+    // "for eth the view is mirrored (--mirror on)"; empty: the image is the same.
     std::string to(DialectName name) const
     {
         const Dialect other = Dialect::standard(name);
@@ -129,7 +129,7 @@ public:
 private:
     bool has_map() const
     {
-        return !wishes_.environment_scale && scene_ && stakes_.sees_emitters && stakes_.has_picture_around;
+        return !wishes_.environment_scale && scene_ && stakes_.sees_emitters && stakes_.has_image_around;
     }
 
     std::string map(const Dialect& other) const
@@ -171,7 +171,7 @@ void warn_of_open_readings(const Element& root, const DialectChoice& choice, con
     }
     if (!what.empty()) return warn(what, flags);
     if (evidence.name == DialectName::plumb) return;
-    // Of a course: what one mark is not enough for, or what two have done to a picture.
+    // Of a course: what one mark is not enough for, or what two have done to an image.
     if (const std::string difference = differences.to(evidence.name); !difference.empty())
         return warn(difference, fmt::format("--dialect {}", to_string(evidence.name)));
     if (const std::string scaled = differences.scaled_map(); !scaled.empty())

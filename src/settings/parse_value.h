@@ -32,7 +32,7 @@ bool parse_switch(std::string_view option, std::string_view text); // true or fa
 std::pair<std::string, std::string> parse_definition(std::string_view option,
                                                      std::string_view text); // name=value
 
-// The largest picture has max_side x max_side pixels.
+// The largest image has max_side x max_side pixels.
 inline constexpr int max_side = 65535;
 
 } // namespace plumb

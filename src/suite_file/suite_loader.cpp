@@ -19,10 +19,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Each picture has a copy of all that holds for it, so that a small file can ask for very much.
+// Each image has a copy of all that holds for it, so that a small file can ask for very much.
 constexpr std::size_t max_entries = 10'000;
-constexpr std::size_t max_definitions = 1000;                     // of one picture
-constexpr std::size_t max_settings_size = std::size_t{256} << 20; // of all pictures, in bytes
+constexpr std::size_t max_definitions = 1000;                     // of one image
+constexpr std::size_t max_settings_size = std::size_t{256} << 20; // of all images, in bytes
 
 // What a <suite> or <group> says of all that is in it.
 struct Inherited {

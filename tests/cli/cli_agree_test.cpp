@@ -24,7 +24,7 @@ TEST_CASE("estimators of the same light agree", "[cli][agree]")
     const std::string json = read_bytes(directory / "a.json");
     CHECK_THAT(json, ContainsSubstring("\"verdict\": \"agree\""));
     CHECK_THAT(json, ContainsSubstring("\"detectable_bias\": 0.0"));
-    // Another seed is another set of pictures, and the verdict stands.
+    // Another seed is another set of images, and the verdict stands.
     CHECK(directory.run({"agree", "easy.xml", "--seed", "77", "--quiet"}).exit_code == 0);
 }
 
@@ -86,7 +86,7 @@ TEST_CASE("agree takes a time instead of a number of samples", "[cli][agree]")
     CHECK(directory.run({"agree", "easy.xml", "--integrators", "path,paht"}).exit_code != 0);
 }
 
-TEST_CASE("black pictures are no agreement, but the same pictures", "[cli][agree]")
+TEST_CASE("black images are no agreement, but the same images", "[cli][agree]")
 {
     const SceneDirectory directory;
     std::string dark = easy_scene;

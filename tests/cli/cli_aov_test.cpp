@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 
-// --aov and compare --layer, with the real program: layers in files, checkpoints, parts and merged pictures.
+// --aov and compare --layer, with the real program: layers in files, checkpoints, parts and merged images.
 
-#include "cli/picture_header.h"
+#include "cli/image_header.h"
 #include "cli/small_scene.h"
 #include "plumb/render/aovs.h"
 #include "support/catch.h"
@@ -42,7 +42,7 @@ bool has(const Image& image, const std::string& channel)
 
 } // namespace
 
-TEST_CASE("a picture with AOVs has layers, and the same beauty", "[cli][aov]")
+TEST_CASE("an image with AOVs has layers, and the same beauty", "[cli][aov]")
 {
     const SceneDirectory directory;
     REQUIRE(directory.run({"scene.xml", "-o", "plain.exr", "-o", "plain.png"}).exit_code == 0);
@@ -58,7 +58,7 @@ TEST_CASE("a picture with AOVs has layers, and the same beauty", "[cli][aov]")
         for (int x = 0; x < 48; ++x) REQUIRE(image.color(x, y) == plain.color(x, y));
     CHECK(read_image(directory / "a.png", false).channel_count() == 3);
 
-    const PictureHeader header = plumb::header(directory / "a.exr");
+    const ImageHeader header = plumb::header(directory / "a.exr");
     CHECK(text(header, "plumb:set.aov") == "normal,albedo,depth,object");
     CHECK(text(header, "plumb:ids.object") == "1 shape 'rectangle' (scene.xml:10)\n"
                                               "2 shape 'sphere' (scene.xml:14)\n"

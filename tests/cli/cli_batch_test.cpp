@@ -133,19 +133,19 @@ TEST_CASE("batch renders again what has changed, and nothing else", "[cli][batch
         return count_of(directory.batch(text.empty() ? entries : text, words).out, "  up to date\n");
     };
     CHECK(up_to_date() == 0);
-    const std::string picture = read_bytes(directory / "batch/suite/scene_2.exr");
+    const std::string image = read_bytes(directory / "batch/suite/scene_2.exr");
     CHECK(up_to_date() == 2);
     CHECK(up_to_date({"--force"}) == 0);
-    CHECK(read_bytes(directory / "batch/suite/scene_2.exr") == picture);
+    CHECK(read_bytes(directory / "batch/suite/scene_2.exr") == image);
     CHECK(up_to_date({"--threads", "1"}) == 2); // changes no bit
 
-    SECTION("a picture that was removed, cut or changed")
+    SECTION("an image that was removed, cut or changed")
     {
         std::filesystem::remove(directory / "batch/suite/scene_2.png");
         CHECK(up_to_date() == 1);
-        directory.write("batch/suite/scene_2.exr", picture.substr(0, 100));
+        directory.write("batch/suite/scene_2.exr", image.substr(0, 100));
         CHECK(up_to_date() == 1);
-        CHECK(read_bytes(directory / "batch/suite/scene_2.exr") == picture);
+        CHECK(read_bytes(directory / "batch/suite/scene_2.exr") == image);
         CHECK(up_to_date() == 2);
     }
     SECTION("a scene that was changed")
@@ -234,7 +234,7 @@ TEST_CASE("entries that share a reference say how it is made", "[cli][batch]")
     CHECK_THAT(directory.run({"info", "ref.exr"}).out, ContainsSubstring("plumb:set.spp          8\n"));
 }
 
-TEST_CASE("a scene's own sample count names its picture", "[cli][batch]")
+TEST_CASE("a scene's own sample count names its image", "[cli][batch]")
 {
     const BatchDirectory directory;
     const RunResult run =
@@ -274,14 +274,14 @@ TEST_CASE("the reports of batch", "[cli][batch]")
 
     const std::string json = directory.report("report.json");
     for (const char* part : {"\"exit_code\": 1,", "\"name\": \"dark_64\",\n      \"verdict\": \"differs\"",
-                             "\"picture\": \"batch/suite/scene_64.exr\"", "\"up_to_date\": true",
+                             "\"image\": \"batch/suite/scene_64.exr\"", "\"up_to_date\": true",
                              "\"rmse\": ", "\"finding\": \"different\""})
         CHECK_THAT(json, ContainsSubstring(part));
     const std::string markdown = directory.report("summary.md");
     CHECK_THAT(markdown, ContainsSubstring("1 passes, 1 differs, 1 error; 2 up to date in "));
     CHECK_THAT(markdown, ContainsSubstring("| dark\\_64 | **differs** | "));
 
-    // One page, with all pictures in it and nothing to fetch.
+    // One page, with all images in it and nothing to fetch.
     const std::string page = directory.report("report.html");
     CHECK(page.starts_with("<!DOCTYPE html>\n"));
     CHECK(page.ends_with("</html>\n"));

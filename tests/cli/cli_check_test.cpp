@@ -144,7 +144,7 @@ TEST_CASE("check tells errors as rendering does", "[cli][check]")
                ContainsSubstring("bad.xml:4:14: error: unknown shape 'spere'; did you mean 'sphere'?"));
 }
 
-TEST_CASE("a sun that lights nothing is warned of, and a black picture doubted", "[cli][check]")
+TEST_CASE("a sun that lights nothing is warned of, and a black image doubted", "[cli][check]")
 {
     const std::string floor =
         R"(<shape type="rectangle"><vector name="normal" value="0,1,0"/><float name="width" value="9"/>

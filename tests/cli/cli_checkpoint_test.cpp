@@ -2,7 +2,7 @@
 
 // Checkpoints, stop rules, parts and merging, with the real program.
 
-#include "cli/picture_header.h"
+#include "cli/image_header.h"
 #include "cli/small_scene.h"
 #include "plumb/image/image.h"
 #include "plumb/render/state_file.h"
@@ -120,7 +120,7 @@ TEST_CASE("a checkpoint of another rendering is refused with the reason", "[cli]
                ContainsSubstring("cannot resume from 'c.exr': it is not a checkpoint or a partial render"));
 }
 
-TEST_CASE("a signal ends a rendering with picture and checkpoint", "[cli][checkpoint]")
+TEST_CASE("a signal ends a rendering with image and checkpoint", "[cli][checkpoint]")
 {
     const int signal = GENERATE(SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1, SIGXCPU);
     const SceneDirectory directory;
@@ -193,7 +193,7 @@ TEST_CASE("a time limit is kept, named in the ledger, and can be rendered again"
     CHECK(integer(header(directory / "c.exr"), "plumb:biased") == 0);
 }
 
-TEST_CASE("parts make the picture, whatever the order and the grouping", "[cli][merge]")
+TEST_CASE("parts make the image, whatever the order and the grouping", "[cli][merge]")
 {
     const SceneDirectory directory;
     const std::string by = GENERATE("tiles", "samples");
@@ -247,7 +247,7 @@ TEST_CASE("parts make the picture, whatever the order and the grouping", "[cli][
         CHECK_THAT(refusal({"merge", "p1.exr", "scene.xml", "-o", "x.exr"}),
                    ContainsSubstring("error: cannot resume from 'scene.xml': "));
     }
-    SECTION("a picture with holes says so")
+    SECTION("an image with holes says so")
     {
         const RunResult result =
             directory.run({"merge", "p13.exr", "p4.exr", "-o", "x.exr", "--allow-missing"});

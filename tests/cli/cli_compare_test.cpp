@@ -4,7 +4,7 @@
 
 #include "plumb/image/image.h"
 #include "support/catch.h"
-#include "support/noisy_picture.h"
+#include "support/noisy_image.h"
 #include "support/run.h"
 
 using namespace plumb;
@@ -12,23 +12,23 @@ using namespace plumb::test;
 
 namespace {
 
-struct PictureDirectory : TempDirectory {
-    PictureDirectory()
+struct ImageDirectory : TempDirectory {
+    ImageDirectory()
     {
-        NoisyPicture how;
+        NoisyImage how;
         how.size = 32;
         how.channels = {"R", "G", "B"};
-        write_image(path() / "a.exr", noisy_picture(how, exponential_samples(), 1));
-        write_image(path() / "b.exr", noisy_picture(how, exponential_samples(), 2));
-        write_image(path() / "few.exr", noisy_picture(how, hits(1e-4), 3));
+        write_image(path() / "a.exr", noisy_image(how, exponential_samples(), 1));
+        write_image(path() / "b.exr", noisy_image(how, exponential_samples(), 2));
+        write_image(path() / "few.exr", noisy_image(how, hits(1e-4), 3));
         how.bias = 1.2;
-        write_image(path() / "bright.exr", noisy_picture(how, exponential_samples(), 4));
+        write_image(path() / "bright.exr", noisy_image(how, exponential_samples(), 4));
         how.size = 16;
-        write_image(path() / "small.exr", noisy_picture(how, exponential_samples(), 5));
+        write_image(path() / "small.exr", noisy_image(how, exponential_samples(), 5));
         how.size = 32;
         how.bias = 1.0;
-        write_image(path() / "truth.exr", true_picture(how));
-        write_image(path() / "truth.png", true_picture(how));
+        write_image(path() / "truth.exr", true_image(how));
+        write_image(path() / "truth.png", true_image(how));
     }
     RunResult compare(std::vector<std::string> words) const
     {
@@ -41,7 +41,7 @@ struct PictureDirectory : TempDirectory {
 
 TEST_CASE("the exit code of compare is its verdict", "[cli][compare]")
 {
-    const PictureDirectory directory;
+    const ImageDirectory directory;
     const RunResult same = directory.compare({"a.exr", "b.exr"});
     INFO(same.out << same.err);
     CHECK(same.exit_code == 0);
@@ -77,7 +77,7 @@ TEST_CASE("the exit code of compare is its verdict", "[cli][compare]")
 
 TEST_CASE("compare broken files", "[cli][compare]")
 {
-    const PictureDirectory directory;
+    const ImageDirectory directory;
     for (const char* name : {"a.exr", "truth.png"}) {
         const std::string bytes = read_bytes(directory / name);
         directory.write(std::string("cut ") + name, bytes.substr(0, bytes.size() / 2));
@@ -89,7 +89,7 @@ TEST_CASE("compare broken files", "[cli][compare]")
 
 TEST_CASE("what compare is told decides", "[cli][compare]")
 {
-    const PictureDirectory directory;
+    const ImageDirectory directory;
     const RunResult single = directory.compare({"a.exr", "truth.exr"});
     CHECK(single.exit_code == 4);
     CHECK_THAT(
@@ -125,14 +125,14 @@ TEST_CASE("what compare is told decides", "[cli][compare]")
 
 TEST_CASE("compare takes replicas", "[cli][compare]")
 {
-    const PictureDirectory directory;
-    NoisyPicture how;
+    const ImageDirectory directory;
+    NoisyImage how;
     how.size = 32;
     how.channels = {"R", "G", "B"};
     how.knows_noise = false;
     for (const int k : {1, 2, 3})
         write_image(directory / ("r" + std::to_string(k) + ".exr"),
-                    noisy_picture(how, exponential_samples(), 20 + static_cast<std::uint64_t>(k)));
+                    noisy_image(how, exponential_samples(), 20 + static_cast<std::uint64_t>(k)));
     const RunResult same = directory.compare({"r1.exr", "r2.exr", "--against", "b.exr"});
     INFO(same.out << same.err);
     CHECK(same.exit_code == 0);
@@ -157,14 +157,14 @@ TEST_CASE("compare takes replicas", "[cli][compare]")
 
 TEST_CASE("a p-value is never 0, and compare names what agrees", "[cli][compare]")
 {
-    const PictureDirectory directory;
-    NoisyPicture how;
+    const ImageDirectory directory;
+    NoisyImage how;
     how.size = 64;
     how.samples = 100000;
     how.channels = {"R", "G", "B"};
-    write_image(directory / "c.exr", noisy_picture(how, rare_light(0.0, 0.5), 31));
+    write_image(directory / "c.exr", noisy_image(how, rare_light(0.0, 0.5), 31));
     how.bias = 2.0;
-    write_image(directory / "d.exr", noisy_picture(how, rare_light(0.0, 0.5), 32));
+    write_image(directory / "d.exr", noisy_image(how, rare_light(0.0, 0.5), 32));
     const RunResult result = directory.compare({"c.exr", "d.exr"});
     INFO(result.out);
     CHECK(result.exit_code == 3);
@@ -173,9 +173,9 @@ TEST_CASE("a p-value is never 0, and compare names what agrees", "[cli][compare]
     CHECK_THAT(result.out, ContainsSubstring("27 changes tried)\n"));
 }
 
-TEST_CASE("compare writes a picture and JSON", "[cli][compare]")
+TEST_CASE("compare writes an image and JSON", "[cli][compare]")
 {
-    const PictureDirectory directory;
+    const ImageDirectory directory;
     const RunResult result = directory.compare(
         {"bright.exr", "b.exr", "--diff", "d.png", "--json", "c.json", "--max", "rmse=0.5"});
     CHECK(result.exit_code == 3);

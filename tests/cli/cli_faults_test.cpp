@@ -63,7 +63,7 @@ TEST_CASE("a disk that is full leaves the last checkpoint", "[cli][faults]")
     CHECK(directory.files() == files); // and nothing half-written
 }
 
-TEST_CASE("a checkpoint that cannot be written does not lose the picture", "[cli][faults]")
+TEST_CASE("a checkpoint that cannot be written does not lose the image", "[cli][faults]")
 {
     const SceneDirectory directory;
     REQUIRE(
@@ -79,7 +79,7 @@ TEST_CASE("a checkpoint that cannot be written does not lose the picture", "[cli
     CHECK(read_bytes(directory / "a.exr") == read_bytes(directory / "whole.exr"));
 }
 
-TEST_CASE("a picture whose directory vanished is put beside the checkpoint", "[cli][faults]")
+TEST_CASE("an image whose directory vanished is put beside the checkpoint", "[cli][faults]")
 {
     const SceneDirectory directory;
     std::filesystem::create_directory(directory / "kept");
@@ -111,7 +111,7 @@ TEST_CASE("a scene that is edited while it is rendered is not gone on from", "[c
         run_renderer(words, directory.path(), "", once_there(directory / "c.exr", [&] {
                          directory.write("scene.xml", small_scene(R"(<integrator type="path"/>)"));
                      }));
-    // The picture is that of the scene as it was read.
+    // The image is that of the scene as it was read.
     REQUIRE(result.exit_code == 0);
     CHECK(read_bytes(directory / "a.exr") == read_bytes(directory / "whole.exr"));
     Names more = words;

@@ -53,7 +53,7 @@ TEST_CASE("names that are too long are found before the rendering", "[cli][files
     check_refused(directory, {"-o", "a.exr", "--checkpoint", longest}, reason);
     check_refused(directory, {"--part", "1/2", "-o", longest}, reason);
     check_refused(directory, {"-o", std::string(3000, 'z') + "/a.exr"}, "");
-    // By default a picture is named after its scene.
+    // By default an image is named after its scene.
     const std::string scene = std::string(245, 's') + ".xml";
     directory.write(scene, small_scene());
     const RunResult named = directory.run({scene, "--spp", "60000000", "--quiet"});

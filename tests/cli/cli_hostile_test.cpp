@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-// Headers of pictures and state files that somebody has written by hand: whatever they say, the verbs that read them do what
+// Headers of images and state files that somebody has written by hand: whatever they say, the verbs that read them do what
 // they do for good ones or end with an error that names the file; they write nothing that the command line does not name,
 // and nothing of it steers a terminal.
 
@@ -124,7 +124,7 @@ void set_arguments(Metadata& header, const std::string& arguments)
     set(header, "plumb:arguments", arguments);
 }
 
-// A small picture, and a state file of half of it.
+// A small image, and a state file of half of it.
 struct HostileDirectory : TempDirectory {
     HostileDirectory()
     {
@@ -144,8 +144,8 @@ struct HostileDirectory : TempDirectory {
     }
 };
 
-// What header.h lists, with what the picture at hand does not have.
-std::vector<std::string> picture_keys(const Metadata& header)
+// What header.h lists, with what the image at hand does not have.
+std::vector<std::string> image_keys(const Metadata& header)
 {
     std::vector<std::string> keys = {"plumb:arguments",   "plumb:set.define",   "plumb:set.output",
                                      "plumb:stop",        "plumb:samplesTaken", "plumb:biases",
@@ -245,11 +245,11 @@ void forge_state(const std::filesystem::path& from, const std::filesystem::path&
 
 } // namespace
 
-TEST_CASE("a picture's header is untrusted, whatever reads it", "[cli][hostile]")
+TEST_CASE("an image's header is untrusted, whatever reads it", "[cli][hostile]")
 {
     const HostileDirectory directory;
     const Image good = read_image(directory / "good.exr", false);
-    for (const std::string& key : picture_keys(good.metadata)) {
+    for (const std::string& key : image_keys(good.metadata)) {
         for (const MetadataValue& value : hostile_values()) {
             Image bad = read_image(directory / "good.exr", false);
             set(bad.metadata, key, value);
@@ -263,7 +263,7 @@ TEST_CASE("a picture's header is untrusted, whatever reads it", "[cli][hostile]"
     }
 }
 
-TEST_CASE("samples outside the picture are refused", "[cli][hostile]")
+TEST_CASE("samples outside the image are refused", "[cli][hostile]")
 {
     const HostileDirectory directory;
     for (const char* samples : {"8,6,1,1:0-4", "60000,60000,8,6:0-4", "0,0,65536,65536:0-4", "0,0,9,6:0-4",
@@ -280,7 +280,7 @@ TEST_CASE("samples outside the picture are refused", "[cli][hostile]")
     }
 }
 
-TEST_CASE("options in a header that do not change the picture are refused", "[cli][hostile]")
+TEST_CASE("options in a header that do not change the image are refused", "[cli][hostile]")
 {
     const HostileDirectory directory;
     for (const char* arguments :
@@ -317,14 +317,14 @@ TEST_CASE("the options in headers of Plumb 0.1 are read and written as settings"
 
     forge_state(directory / "good.state.exr", directory / "old.state.exr",
                 [&](WordImage& image, auto&) { set_arguments(image.metadata, arguments); });
-    const auto merged = [&](const char* part, const char* picture) {
-        REQUIRE(directory.run({"merge", part, "--allow-missing", "-o", picture}).code == 0);
-        return read_bytes(directory / std::string(picture).substr(1, std::string(picture).size() - 2));
+    const auto merged = [&](const char* part, const char* image) {
+        REQUIRE(directory.run({"merge", part, "--allow-missing", "-o", image}).code == 0);
+        return read_bytes(directory / std::string(image).substr(1, std::string(image).size() - 2));
     };
     CHECK(merged("(old.state.exr)", "(a.exr)") == merged("(good.state.exr)", "(b.exr)"));
 }
 
-TEST_CASE("settings in a header that are none of a picture are refused", "[cli][hostile]")
+TEST_CASE("settings in a header that are none of an image are refused", "[cli][hostile]")
 {
     const HostileDirectory directory;
     for (const auto& [name, value, problem] : std::vector<std::tuple<const char*, const char*, const char*>>{

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-// kill -9 at any moment of any phase, many times in a row: the picture that comes out at last is that of a rendering
+// kill -9 at any moment of any phase, many times in a row: the image that comes out at last is that of a rendering
 // nobody disturbed.
 
 #include "build_paths.h"
@@ -61,7 +61,7 @@ void check_kills(int kills_wanted)
     const std::string preload = "LD_PRELOAD=" + (directory / "killer.so").string();
 
     std::map<std::string, int> kills;
-    int pictures = 0;
+    int images = 0;
     for (int killed = 0; killed < kills_wanted;) {
         directory.write("trace", "");
         const std::string moment = random_kill(random);
@@ -79,7 +79,7 @@ void check_kills(int kills_wanted)
         REQUIRE(result.exit_code == 0);
         REQUIRE(result.err.empty()); // no generation was damaged
         REQUIRE(read_bytes(directory / "a.exr") == whole);
-        ++pictures;
+        ++images;
         for (const char* file : {"a.exr", "c.exr", "c.previous.exr"})
             std::filesystem::remove(directory / file);
     }
@@ -88,7 +88,7 @@ void check_kills(int kills_wanted)
     REQUIRE(read_bytes(directory / "a.exr") == whole);
     std::string counts;
     for (const std::string& phase : phases) counts += " " + phase + " " + std::to_string(kills[phase]);
-    WARN("kills:" << counts << "; images on the way: " << pictures);
+    WARN("kills:" << counts << "; images on the way: " << images);
     if (kills_wanted >= 100)
         for (const std::string& phase : phases) CHECK(kills[phase] > 0);
 }

@@ -151,7 +151,7 @@ TEST_CASE("scenes of suites, and scenes on the command line, have the same way o
     CHECK(slip.err == "error: scene file 'scenes/A.xml' does not exist; did you mean 'scenes/a.xml'?\n");
 }
 
-TEST_CASE("a picture whose mesh lay in the working directory is rendered again, or refused",
+TEST_CASE("an image whose mesh lay in the working directory is rendered again, or refused",
           "[cli][named_files]")
 {
     const Files files("");

@@ -57,7 +57,7 @@ TEST_CASE("an estimator that finds no light does not win", "[cli][race]")
     CHECK_THAT(run.out, ContainsSubstring("\nundecided\nmore samples may decide it"));
 }
 
-TEST_CASE("the variance of a race is that of the pictures' own error bars", "[cli][race]")
+TEST_CASE("the variance of a race is that of the images' own error bars", "[cli][race]")
 {
     const SceneDirectory directory;
     directory.write("easy.xml", easy_scene);
@@ -65,9 +65,9 @@ TEST_CASE("the variance of a race is that of the pictures' own error bars", "[cl
                                           "32", "--rounds", "40", "--json", "-"});
     CHECK(race.exit_code == 0);
     const double variance = number_after(race.out, "\"variance\": ", race.out.find("\"name\": \"path_mis\""));
-    const RunResult picture = directory.run(
+    const RunResult image = directory.run(
         {"easy.xml", "-o", "a.exr", "--spp", "32", "--integrator", "path_mis", "--json", "-", "--quiet"});
-    const double rmse = number_after(picture.out, "\"rmse\": ", 0);
+    const double rmse = number_after(image.out, "\"rmse\": ", 0);
     // 1296 values, each known to a few hundredths.
     CHECK(std::sqrt(variance) == Approx(rmse).epsilon(0.03));
 }

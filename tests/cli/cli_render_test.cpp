@@ -2,7 +2,7 @@
 
 // What the program writes.
 
-#include "cli/picture_header.h"
+#include "cli/image_header.h"
 #include "cli/small_scene.h"
 #include "support/catch.h"
 
@@ -79,7 +79,7 @@ TEST_CASE("a crop is that part of the whole, bit for bit", "[cli][render]")
     CHECK(different == 0);
 }
 
-TEST_CASE("a crop and a replay need no memory for the whole picture", "[cli][render]")
+TEST_CASE("a crop and a replay need no memory for the whole image", "[cli][render]")
 {
     const SceneDirectory directory;
     const Names huge = {"scene.xml", "--spp", "1", "--size", "65535x65535"};

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 
-// Error bars, the ledger of biases, and pictures rendered again from their headers.
+// Error bars, the ledger of biases, and images rendered again from their headers.
 
 #include "base/shell_words.h"
 #include "base/text.h"
-#include "cli/picture_header.h"
+#include "cli/image_header.h"
 #include "cli/small_scene.h"
 #include "plumb/scene_file/scene_file.h"
 #include "support/catch.h"
@@ -50,7 +50,7 @@ TEST_CASE("an image says how sure it is", "[cli][evidence]")
     CHECK(interval[0] < rmse);
     CHECK(rmse < interval[1]);
 
-    // The error against a picture with a hundred times the samples is what was foretold, to a third.
+    // The error against an image with a hundred times the samples is what was foretold, to a third.
     REQUIRE(directory.run({"scene.xml", "-o", "b.exr", "--spp", "1600", "--seed", "9"}).exit_code == 0);
     const Image a = read_image(directory / "a.exr", false);
     const Image b = read_image(directory / "b.exr", false);
@@ -70,7 +70,7 @@ TEST_CASE("an image says how sure it is", "[cli][evidence]")
     CHECK(std::isnan(d.pixel(3, 3)[4]));
 }
 
-TEST_CASE("what makes a picture biased is in its header and in the log", "[cli][evidence]")
+TEST_CASE("what makes an image biased is in its header and in the log", "[cli][evidence]")
 {
     const SceneDirectory directory;
     directory.write(
@@ -85,7 +85,7 @@ TEST_CASE("what makes a picture biased is in its header and in the log", "[cli][
     CHECK(text(found, "plumb:model") == "emitters absorb incident light");
 }
 
-TEST_CASE("a picture is rendered again from its header, to the same bytes", "[cli][rerun]")
+TEST_CASE("an image is rendered again from its header, to the same bytes", "[cli][rerun]")
 {
     const SceneDirectory directory;
     directory.write("sub/it's.xml", small_scene());
@@ -138,7 +138,7 @@ TEST_CASE("rerun names what has changed", "[cli][rerun]")
     CHECK(read_bytes(directory / "a.exr") == read_bytes(directory / "b.exr"));
 }
 
-TEST_CASE("rerun takes pictures of ours, and keeps them", "[cli][rerun]")
+TEST_CASE("rerun takes images of ours, and keeps them", "[cli][rerun]")
 {
     const SceneDirectory directory;
     write_image(directory / "foreign.exr", Image(2, 2));
@@ -156,11 +156,11 @@ TEST_CASE("rerun takes pictures of ours, and keeps them", "[cli][rerun]")
     CHECK(directory.run({"rerun", "none.exr", "-o", "b.exr"}).exit_code == 1);
 }
 
-TEST_CASE("a picture that was made when the scene language meant something else is not made again",
+TEST_CASE("an image that was made when the scene language meant something else is not made again",
           "[cli][rerun]")
 {
     const SceneDirectory directory;
-    const auto picture_of = [&](const std::string& more, const Names& options = {}) {
+    const auto image_of = [&](const std::string& more, const Names& options = {}) {
         std::string scene = small_scene();
         directory.write("scene.xml", scene.insert(scene.find("</scene>"), more));
         Names words = {"scene.xml", "-o", "new.exr", "--spp", "1", "--quiet"};
@@ -176,7 +176,7 @@ TEST_CASE("a picture that was made when the scene language meant something else 
     };
     const std::string sun =
         R"(<emitter type="directional"><vector name="direction" value="0,-1,0"/></emitter>)";
-    const RunResult refused = picture_of(sun);
+    const RunResult refused = image_of(sun);
     CHECK(refused.exit_code == 1);
     CHECK(refused.err == "error: cannot render 'old.exr' again: it was made with version 1 of the scene "
                          "language, in which the direction of a directional light had a different meaning "
@@ -187,9 +187,9 @@ TEST_CASE("a picture that was made when the scene language meant something else 
             R"(<point name="delta" value="{}"/></texture></bsdf></shape>)",
             delta);
     };
-    CHECK_THAT(picture_of(checks("0.5,0")).err, ContainsSubstring("the delta of a checkerboard"));
+    CHECK_THAT(image_of(checks("0.5,0")).err, ContainsSubstring("the delta of a checkerboard"));
     // What means the same can be made again.
-    CHECK(picture_of(checks("0,0")).exit_code == 0);
-    CHECK(picture_of(sun, {"--dialect", "mcgill"}).exit_code == 0);
-    CHECK(picture_of("").exit_code == 0);
+    CHECK(image_of(checks("0,0")).exit_code == 0);
+    CHECK(image_of(sun, {"--dialect", "mcgill"}).exit_code == 0);
+    CHECK(image_of("").exit_code == 0);
 }

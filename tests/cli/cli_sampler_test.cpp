@@ -3,7 +3,7 @@
 // What the samplers' promises are on the command line: sobol goes on and merges as independent does, with error bars that
 // are upper bounds and say so; stratified has one total, and refuses what goes past it.
 
-#include "cli/picture_header.h"
+#include "cli/image_header.h"
 #include "cli/small_scene.h"
 #include "support/catch.h"
 
@@ -55,7 +55,7 @@ TEST_CASE("sobol is gone on with to any number of samples", "[cli][sampler][chec
     CHECK(read_bytes(directory / "again.exr") == read_bytes(directory / "whole.exr"));
 }
 
-TEST_CASE("parts by any sampler make the picture", "[cli][sampler][merge]")
+TEST_CASE("parts by any sampler make the image", "[cli][sampler][merge]")
 {
     const SceneDirectory directory;
     const std::string sampler = GENERATE(as<std::string>{}, "sobol", "stratified");
@@ -69,7 +69,7 @@ TEST_CASE("parts by any sampler make the picture", "[cli][sampler][merge]")
     CHECK(read_bytes(directory / "merged.exr") == read_bytes(directory / "whole.exr"));
 }
 
-TEST_CASE("a picture by stratified is not gone on with past its total", "[cli][sampler][checkpoint]")
+TEST_CASE("an image by stratified is not gone on with past its total", "[cli][sampler][checkpoint]")
 {
     const SceneDirectory directory;
     REQUIRE(

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-// The program starts fast, because it loads OpenImageIO only for pictures.
+// The program starts fast, because it loads OpenImageIO only for images.
 
 #include "build_paths.h"
 #include "cli/small_scene.h"
@@ -31,7 +31,7 @@ const std::string missing =
 
 } // namespace
 
-TEST_CASE("only pictures take OpenImageIO", "[cli][startup]")
+TEST_CASE("only images take OpenImageIO", "[cli][startup]")
 {
     const SceneDirectory directory;
     CHECK_FALSE(loads_images(directory, {"--version"}));

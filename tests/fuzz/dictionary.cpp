@@ -111,7 +111,7 @@ void add_ply_words(Words& words)
         words.insert(word);
 }
 
-void add_picture_words(Words& words)
+void add_image_words(Words& words)
 {
     for (const char* word : {"window ",
                              " of ",
@@ -189,7 +189,7 @@ int main(int argc, char** argv)
     if (target == "scene" || target == "suite") add_scene_words(words);
     if (target == "options" || target == "headers" || target == "merge") add_option_words(words);
     if (target == "headers" || target == "merge" || target == "state" || target == "compare")
-        add_picture_words(words);
+        add_image_words(words);
     if (target == "ply") add_ply_words(words);
     if (target == "obj")
         words = {"v ",   "vt ",  "vn ",      "f ",   "-1",    "1/1/1", "1//1",

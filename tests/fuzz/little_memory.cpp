@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-// Stands in for src/base/memory.cpp: a machine with little memory. Pictures that are too large for it are errors of ours then,
+// Stands in for src/base/memory.cpp: a machine with little memory. Images that are too large for it are errors of ours then,
 // on any machine, and not the end of the fuzzer.
 
 #include "base/memory.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The scene of the seeds that are pictures and states: a lamp above a ball.
+// The scene of the seeds that are images and states: a lamp above a ball.
 
 namespace plumb::fuzz {
 

@@ -2,7 +2,7 @@
 #include "fuzz/state_mutator.h"
 
 #include "fuzz/fuzz.h"
-#include "fuzz/picture_text.h"
+#include "fuzz/image_text.h"
 #include "plumb/render/state_file.h"
 #include "render/state_hash.h"
 
@@ -14,39 +14,39 @@ namespace plumb::fuzz {
 namespace {
 
 // What read_state() makes of the file before it finds the hash wrong says which hash is right.
-std::string right_hash(const TextPicture& picture)
+std::string right_hash(const TextImage& image)
 {
     forget_words_read();
     try {
-        read_state(write_file("hashed.exr", picture_text(picture)));
+        read_state(write_file("hashed.exr", image_text(image)));
     } catch (const Error&) {
     } catch (const std::bad_alloc&) {
     }
     WordsRead read = words_read();
     std::erase_if(read.channels,
                   [](const std::string& name) { return name == "R" || name == "G" || name == "B"; });
-    StateHash hash(state_header(picture.metadata), read.channels);
+    StateHash hash(state_header(image.metadata), read.channels);
     for (const std::vector<std::uint32_t>& row : read.rows) hash.add(hash_of_row(row));
     return hash.hex();
 }
 
 std::string with_right_hash(std::string_view text)
 {
-    TextPicture picture = parse_picture(text);
-    std::erase_if(picture.metadata, [](const auto& entry) { return entry.first == state_hash_name; });
-    picture.metadata.emplace_back(state_hash_name, std::string("none"));
-    picture.metadata.back().second = right_hash(picture);
-    return picture_text(picture);
+    TextImage image = parse_image(text);
+    std::erase_if(image.metadata, [](const auto& entry) { return entry.first == state_hash_name; });
+    image.metadata.emplace_back(state_hash_name, std::string("none"));
+    image.metadata.back().second = right_hash(image);
+    return image_text(image);
 }
 
 } // namespace
 
-std::string with_right_hashes(std::string_view pictures)
+std::string with_right_hashes(std::string_view images)
 {
     std::string result;
-    for (const std::string_view picture : split_pictures(pictures)) {
-        if (!result.empty()) result += picture_separator;
-        result += with_right_hash(picture);
+    for (const std::string_view image : split_images(images)) {
+        if (!result.empty()) result += image_separator;
+        result += with_right_hash(image);
     }
     return result;
 }

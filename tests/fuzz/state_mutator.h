@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// For targets that read state files as text (picture_text.h): a mutator of libFuzzer's that gives most of what it makes the
+// For targets that read state files as text (image_text.h): a mutator of libFuzzer's that gives most of what it makes the
 // hash that belongs to it.
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace plumb::fuzz {
 
-// The same pictures, each with the hash that read_state() wants of it.
-std::string with_right_hashes(std::string_view pictures);
+// The same images, each with the hash that read_state() wants of it.
+std::string with_right_hashes(std::string_view images);
 
 } // namespace plumb::fuzz

@@ -12,7 +12,7 @@ function(run)
   endif()
 endfunction()
 
-function(check_picture file)
+function(check_image file)
   if(NOT EXISTS "${file}")
     message(FATAL_ERROR "there is no ${file}")
   endif()
@@ -22,7 +22,7 @@ run("${CMAKE_COMMAND}" --install "${BUILD}" --prefix "${directory}/installed")
 file(RENAME "${directory}/installed" "${directory}/moved")
 
 run("${directory}/moved/bin/renderer" "${SCENE}" --size 16x12 --spp 2 --quiet -o "${directory}/program.exr")
-check_picture("${directory}/program.exr")
+check_image("${directory}/program.exr")
 
 run("${CMAKE_COMMAND}" -S "${CMAKE_CURRENT_LIST_DIR}" -B "${directory}/consumer" -G Ninja
   "-DCMAKE_PREFIX_PATH=${directory}/moved" "-DCMAKE_CXX_COMPILER=${COMPILER}" "-DCMAKE_CXX_FLAGS=${FLAGS}")
@@ -32,6 +32,6 @@ file(WRITE "${directory}/suite.xml"
 run("${directory}/moved/bin/renderer" batch "${directory}/suite.xml" --update --quiet)
 file(MAKE_DIRECTORY "${directory}/out")
 run("${directory}/consumer/consumer" "${SCENE}" "${directory}/suite.xml" "${directory}/out")
-check_picture("${directory}/out/whole.exr")
-check_picture("${directory}/out/suite/same_4.exr")
-check_picture("${directory}/out/suite/report.html")
+check_image("${directory}/out/whole.exr")
+check_image("${directory}/out/suite/same_4.exr")
+check_image("${directory}/out/suite/report.html")

@@ -37,8 +37,8 @@ void do_all(const std::filesystem::path& scene, const std::filesystem::path& sui
 
     RenderSession whole(task);
     check(whole.run() == StopReason::all_samples, "render");
-    const Image picture = whole.picture();
-    write_image(out / "whole.exr", picture);
+    const Image image = whole.image();
+    write_image(out / "whole.exr", image);
 
     // Stopped in the middle, and resumed.
     SessionOptions saved;
@@ -49,7 +49,7 @@ void do_all(const std::filesystem::path& scene, const std::filesystem::path& sui
     first.save();
     RenderSession second(task, saved);
     check(second.resume() && second.run() == StopReason::all_samples, "resume");
-    check(identical(second.picture(), picture), "resumed image");
+    check(identical(second.image(), image), "resumed image");
 
     std::vector<std::filesystem::path> parts;
     for (std::uint64_t i = 0; i < 2; ++i) {
@@ -61,28 +61,28 @@ void do_all(const std::filesystem::path& scene, const std::filesystem::path& sui
         session.save();
     }
     const Work work = merge_parts(parts);
-    check(work.missing().empty() && identical(picture_of(work), picture), "merge");
+    check(work.missing().empty() && identical(image_of(work), image), "merge");
 
     const Recipe recipe = read_recipe(out / "whole.exr");
     check(recipe.settings == settings, "settings of a header");
-    check(identical(rerun(recipe, scene), picture), "rerun");
+    check(identical(rerun(recipe, scene), image), "rerun");
 
     // Of a scene that is loaded once.
     RaceSettings methods;
     methods.base = settings;
     methods.methods = {{.integrator = "path_mis"}, {.integrator = "path_nee"}};
     methods.rounds = 3;
-    check(agree(file, methods).outcome != CompareOutcome::differs, "agree");
+    check(agree(file, methods).verdict != Verdict::differs, "agree");
     check(race(file, methods).ranking.size() == 2, "race");
 
     SuiteOptions how;
     how.directory = out / "suite";
-    SuitePictures pictures(2);
-    const SuiteRun run = run_suite(
-        suite, plan_suite(suite), how, {},
-        [&](const SuiteResult& result, const SuiteImages& images) { pictures.add(result, images); });
-    write_suite_reports(run, pictures, how.directory);
-    check(run.count(SuiteVerdict::passes) == 1 && exit_code_of(run) == 0, "suite");
+    ShownImages images(2);
+    const SuiteRun run =
+        run_suite(suite, plan_suite(suite), how, {},
+                  [&](const SuiteResult& result, const SuiteImages& images) { images.add(result, images); });
+    write_suite_reports(run, images, how.directory);
+    check(run.count(Verdict::passes) == 1 && exit_code_of(run) == 0, "suite");
 }
 
 } // namespace

@@ -59,7 +59,7 @@ bool same_bits(const Image& a, const Image& b, const PixelRect& window)
 
 } // namespace
 
-TEST_CASE("a picture has the same bits for any threads, tiles and crop", "[regression][determinism]")
+TEST_CASE("an image has the same bits for any threads, tiles and crop", "[regression][determinism]")
 {
     const LoadedScene loaded = test::load_text(scene_text);
     RenderOptions options;
@@ -100,7 +100,7 @@ TEST_CASE("a replayed sample is the sample that was rendered", "[regression][det
     for (std::uint64_t index = 0; index < 20; ++index) {
         const ReplayedSample sample = replay(loaded.job, options, pixel, index);
         CHECK_FALSE(sample.log.empty());
-        REQUIRE(film.add(pixel, sample.value, sample.weight) == Verdict::accepted);
+        REQUIRE(film.add(pixel, sample.value, sample.weight) == SampleStatus::accepted);
     }
     CHECK(same_bits(film.develop(), rendered.film.develop(), *options.crop));
 }

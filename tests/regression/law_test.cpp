@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-// The law of repeatable pictures: the film depends on scene, settings, seed and the set of samples taken, and on nothing
+// The law of repeatable images: the film depends on scene, settings, seed and the set of samples taken, and on nothing
 // else. Cases are drawn at random, from another seed in each run; a failure prints the seed, and with PLUMB_TEST_SEED set to
 // it the same cases are drawn again.
 
@@ -157,12 +157,12 @@ void check_law(int cases)
 
 } // namespace
 
-TEST_CASE("pictures depend on the samples taken and on nothing else", "[regression][determinism][law]")
+TEST_CASE("images depend on the samples taken and on nothing else", "[regression][determinism][law]")
 {
     check_law(25);
 }
 
-TEST_CASE("pictures depend on the samples taken and on nothing else: at length",
+TEST_CASE("images depend on the samples taken and on nothing else: at length",
           "[regression][determinism][law][slow]")
 {
     check_law(1000);

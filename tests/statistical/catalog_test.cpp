@@ -249,7 +249,7 @@ TEST_CASE("every texture has the mean and the bounds that it says", "[statistica
     }
 }
 
-TEST_CASE("every camera sees its picture upright", "[statistical][camera][catalog]")
+TEST_CASE("every camera sees its image upright", "[statistical][camera][catalog]")
 {
     const auto samples = samples_of(camera_types());
     CHECK(!samples.empty());
@@ -259,7 +259,7 @@ TEST_CASE("every camera sees its picture upright", "[statistical][camera][catalo
         const Transform to_camera = camera->to_world().inverse();
         const Vec2f size(static_cast<float>(camera->resolution().x),
                          static_cast<float>(camera->resolution().y));
-        // The mean over the lens of where rays are at depth 1, in camera space (+x is left), for a place in the picture.
+        // The mean over the lens of where rays are at depth 1, in camera space (+x is left), for a place in the image.
         const auto towards = [&](float x, float y) {
             TestRandom random(4);
             Vec3d sum(0.0);

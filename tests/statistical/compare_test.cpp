@@ -4,7 +4,7 @@
 
 #include "plumb/compare/compare.h"
 #include "support/catch.h"
-#include "support/noisy_picture.h"
+#include "support/noisy_image.h"
 #include "support/statistics.h"
 
 #include <fmt/format.h>
@@ -14,7 +14,7 @@ using namespace plumb::test;
 
 namespace {
 
-// The other picture of a pair.
+// The other image of a pair.
 enum class Other { same_samples, more_samples, exact, smooth };
 
 constexpr Other all_others[] = {Other::same_samples, Other::more_samples, Other::exact, Other::smooth};
@@ -30,11 +30,11 @@ std::string_view name_of(Other other)
     return "";
 }
 
-Comparison compare_pair(const NoisyPicture& how, const SampleKind& kind, Other other, std::uint64_t seed)
+Comparison compare_pair(const NoisyImage& how, const SampleKind& kind, Other other, std::uint64_t seed)
 {
-    NoisyPicture how_a = how;
+    NoisyImage how_a = how;
     how_a.estimator = "path";
-    NoisyPicture how_b = how_a;
+    NoisyImage how_b = how_a;
     how_b.bias = 1.0;
     if (other == Other::more_samples) how_b.samples *= 16;
     if (other == Other::smooth) {
@@ -44,12 +44,12 @@ Comparison compare_pair(const NoisyPicture& how, const SampleKind& kind, Other o
     CompareSettings options;
     options.flip = FlipMode::none;
     if (other == Other::exact) options.exact = Side::b;
-    const Image a = noisy_picture(how_a, kind, 2 * seed);
+    const Image a = noisy_image(how_a, kind, 2 * seed);
     return compare(
         a,
         other == Other::exact
-            ? true_picture(how)
-            : noisy_picture(how_b, other == Other::smooth ? normal_samples(0.1) : kind, 2 * seed + 1),
+            ? true_image(how)
+            : noisy_image(how_b, other == Other::smooth ? normal_samples(0.1) : kind, 2 * seed + 1),
         options);
 }
 
@@ -66,13 +66,13 @@ double binomial_survival(std::uint64_t count, std::uint64_t trials, double chanc
     return std::min(1.0, survival);
 }
 
-void check_false_alarms(const NoisyPicture& how, const SampleKind& kind, Other other, std::uint64_t trials,
+void check_false_alarms(const NoisyImage& how, const SampleKind& kind, Other other, std::uint64_t trials,
                         double level)
 {
     const auto run = [&](std::uint64_t pairs, std::uint64_t seed) {
         std::uint64_t alarms = 0;
         for (std::uint64_t i = 0; i < pairs; ++i)
-            if (compare_pair(how, kind, other, seed * 1000003 + i).significance.finding == Finding::different)
+            if (compare_pair(how, kind, other, seed * 1000003 + i).significance.verdict == Verdict::differs)
                 ++alarms;
         return test::Outcome{binomial_survival(alarms, pairs, CompareSettings().significance),
                              fmt::format("{} of {} pairs differ", alarms, pairs)};
@@ -90,13 +90,13 @@ TEST_CASE("compare keeps its error rate, in short", "[statistical][compare]")
     const double level = sidak_level(significance, 4 * kinds.size());
     for (const SampleKind& kind : kinds)
         for (const Other other : all_others) {
-            NoisyPicture how;
+            NoisyImage how;
             how.contrast = other == Other::exact ? 100.0 : 1.0;
             check_false_alarms(how, kind, other, other == Other::more_samples ? 20 : 120, level);
         }
 }
 
-// Both pictures, or the one of few samples, have missed the rare light in many squares of 16x16 pixels: `number` is how
+// Both images, or the one of few samples, have missed the rare light in many squares of 16x16 pixels: `number` is how
 // many rare samples they expect of one.
 TEST_CASE("compare keeps its error rate where rare bright samples add to ordinary light",
           "[statistical][compare]")
@@ -105,7 +105,7 @@ TEST_CASE("compare keeps its error rate where rare bright samples add to ordinar
     const double level = sidak_level(significance, 4 * numbers.size());
     for (const double number : numbers)
         for (const Other other : all_others) {
-            NoisyPicture how;
+            NoisyImage how;
             how.size = 64;
             how.samples = 16;
             check_false_alarms(how, rare_light(0.3, number / (256.0 * how.samples)), other, 20, level);
@@ -137,7 +137,7 @@ TEST_CASE("compare keeps its error rate", "[statistical][compare][slow]")
     const double level = sidak_level(significance, 4 * cases.size());
     for (const Case& test : cases)
         for (const Other other : all_others) {
-            NoisyPicture how;
+            NoisyImage how;
             how.size = test.size;
             how.samples = test.samples;
             how.contrast = other == Other::same_samples ? 1000.0 : 1.0;
@@ -150,7 +150,7 @@ TEST_CASE("the bias that compare says it would find is found", "[statistical][co
 {
     constexpr std::uint64_t trials = 150;
     for (const SampleKind& kind : {exponential_samples(), hits(0.1)}) {
-        NoisyPicture how;
+        NoisyImage how;
         const double bias = *compare_pair(how, kind, Other::exact, 1).significance.detectable_bias;
         INFO(kind.name << ", bias " << bias);
         CHECK(bias < 0.2);
@@ -158,7 +158,7 @@ TEST_CASE("the bias that compare says it would find is found", "[statistical][co
             how.bias = factor;
             std::uint64_t found = 0;
             for (std::uint64_t i = 0; i < trials; ++i)
-                if (compare_pair(how, kind, Other::exact, i + 2).outcome == CompareOutcome::differs) ++found;
+                if (compare_pair(how, kind, Other::exact, i + 2).verdict == Verdict::differs) ++found;
             return found;
         };
         // Of 150 that each have a chance of 0.85, fewer than 115 would be found in 1 % of the tests.

@@ -138,7 +138,7 @@ TEST_CASE("filters are cut at the edge of film or crop, if the camera does not s
     for (const double x : cropped.red) CHECK(x == 0.0);
     CHECK(render_text(orthographic(4.5, 9, crop) + from_middle, 2000).red[3] > 0.1);
 
-    // What is left of the filter counts as all of it: a white picture stays white, exactly for filters without lobes.
+    // What is left of the filter counts as all of it: a white image stays white, exactly for filters without lobes.
     const std::string all_white = "<emitter type='environment'/>";
     for (const char* filter : {"box", "tent", "gaussian", "mitchell", "catmullrom", "lanczos"}) {
         CAPTURE(filter);
@@ -268,7 +268,7 @@ TEST_CASE("projectors light a wall evenly, whatever their field of view",
             CAPTURE(distance, fov);
             CHECK(render_text(orthographic(1e-6, 1, "") + floor_of_100 + projector, 4, direct).red[0] ==
                   Approx(1.0 / sqr(distance)).epsilon(1e-4));
-            // Everywhere inside its picture, and nowhere else.
+            // Everywhere inside its image, and nowhere else.
             const double edge = distance * std::tan(fov * pi_d / 360.0);
             const Rendered row =
                 render_text(orthographic(1.25 * edge, 5, "<rfilter type='box'/>") + floor_of_100 + projector,
@@ -281,7 +281,7 @@ TEST_CASE("projectors light a wall evenly, whatever their field of view",
 
 TEST_CASE("environments as Mitsuba reads them", "[statistical][conventions][emitter]")
 {
-    // The picture has its columns as red, 8 x 5.
+    // The image has its columns as red, 8 x 5.
     const TempDirectory directory;
     Image image(8, 5);
     for (int y = 0; y < 5; ++y)

@@ -57,19 +57,19 @@ TEST_CASE("the variance of a pixel is estimated without bias", "[statistical][ev
     }
 }
 
-TEST_CASE("the noise of a picture is estimated without bias, and its interval holds",
+TEST_CASE("the noise of an image is estimated without bias, and its interval holds",
           "[statistical][evidence]")
 {
-    // Per picture: the squared error that was estimated, and whether the truth is in the interval.
+    // Per image: the squared error that was estimated, and whether the truth is in the interval.
     const double level = sidak_level(significance, std::size(distributions) * 2);
     constexpr int side = 12;
     constexpr int samples = 16;
     for (const Distribution& distribution : distributions) {
         const double truth = distribution.variance / samples;
-        const auto estimates = [&](std::uint64_t pictures, std::uint64_t seed, bool of_coverage) {
+        const auto estimates = [&](std::uint64_t images, std::uint64_t seed, bool of_coverage) {
             TestRandom random(seed);
             MeanAndVariance result;
-            for (std::uint64_t i = 0; i < pictures; ++i) {
+            for (std::uint64_t i = 0; i < images; ++i) {
                 const auto noise = estimate_noise(exposed(distribution, side, samples, random));
                 const bool covered = noise->low * noise->low <= truth && truth <= noise->high * noise->high;
                 result.add(of_coverage ? (covered ? 1.0 : 0.0) : noise->rmse * noise->rmse);
@@ -86,7 +86,7 @@ TEST_CASE("the noise of a picture is estimated without bias, and its interval ho
     }
 }
 
-TEST_CASE("the noise of a picture of one sample is not known", "[statistical][evidence]")
+TEST_CASE("the noise of an image of one sample is not known", "[statistical][evidence]")
 {
     TestRandom random(1);
     CHECK_FALSE(estimate_noise(exposed(distributions[0], 2, 1, random)).has_value());

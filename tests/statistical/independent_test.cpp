@@ -92,12 +92,12 @@ void check_scenes(std::uint64_t samples_per_pixel, double undecided_share)
 
 } // namespace
 
-TEST_CASE("pictures have the expectation that the independent judge says", "[statistical][independent]")
+TEST_CASE("images have the expectation that the independent judge says", "[statistical][independent]")
 {
     check_scenes(192, 0.5);
 }
 
-TEST_CASE("pictures have the expectation that the independent judge says, within a fraction of a percent",
+TEST_CASE("images have the expectation that the independent judge says, within a fraction of a percent",
           "[statistical][independent][slow]")
 {
     check_scenes(1600, 0.0);

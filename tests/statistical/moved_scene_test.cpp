@@ -99,7 +99,7 @@ std::vector<Vec3d> moves_to_zero(const std::filesystem::path& scene_file, Object
     return moves;
 }
 
-// power: a difference in all of the picture that must be found.
+// power: a difference in all of the image that must be found.
 void check_moves(const MovableScenes& scenes, const std::string& scene, const std::string& integrator,
                  Objects which, int spp, double power)
 {
@@ -115,8 +115,8 @@ void check_moves(const MovableScenes& scenes, const std::string& scene, const st
             compare(scenes.render(scene, integrator, move, spp, seed++), reference, options);
         INFO(scene << ", " << integrator << ", moved by " << move.x << " " << move.y << " " << move.z
                    << ": p " << comparison.significance.p << ", " << comparison.significance.reason);
-        // Single squares may be undecided for want of samples; the whole picture is decided.
-        CHECK(comparison.significance.finding != Finding::different);
+        // Single squares may be undecided for want of samples; the whole image is decided.
+        CHECK(comparison.significance.verdict != Verdict::differs);
         REQUIRE(comparison.significance.detectable_bias);
         CHECK(*comparison.significance.detectable_bias < power);
     }

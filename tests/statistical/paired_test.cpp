@@ -5,7 +5,7 @@
 
 #include "plumb/compare/compare.h"
 #include "support/catch.h"
-#include "support/noisy_picture.h"
+#include "support/noisy_image.h"
 #include "support/statistics.h"
 
 #include <fmt/format.h>
@@ -80,22 +80,22 @@ Image splatted(const Image& image, double deviation)
 
 Image make_a(const Trial& trial, std::uint64_t seed)
 {
-    NoisyPicture how;
+    NoisyImage how;
     how.size = trial.size;
     how.samples = trial.samples;
     how.bias = trial.bias;
     how.knows_noise = false;
-    Image image = noisy_picture(how, trial.kind, seed);
+    Image image = noisy_image(how, trial.kind, seed);
     return trial.filter > 0.0 ? splatted(image, trial.filter) : std::move(image);
 }
 
 Image make_b(const Trial& trial, std::uint64_t seed)
 {
-    NoisyPicture how;
+    NoisyImage how;
     how.size = trial.size;
     how.samples = 4 * trial.samples;
     how.knows_noise = trial.reference == Reference::with_error_bars;
-    return trial.reference == Reference::exact ? true_picture(how) : noisy_picture(how, trial.kind, seed);
+    return trial.reference == Reference::exact ? true_image(how) : noisy_image(how, trial.kind, seed);
 }
 
 CompareSettings settings_of(const Trial& trial)
@@ -139,7 +139,7 @@ void check_false_alarms(const std::string& text, const Compare& compare_once, st
     const auto run = [&](std::uint64_t pairs, std::uint64_t seed) {
         std::uint64_t alarms = 0;
         for (std::uint64_t i = 0; i < pairs; ++i)
-            if (compare_once(seed * 1000003 + i).significance.finding == Finding::different) ++alarms;
+            if (compare_once(seed * 1000003 + i).significance.verdict == Verdict::differs) ++alarms;
         return test::Outcome{binomial_survival(alarms, pairs, CompareSettings().significance),
                              fmt::format("{} of {} pairs differ", alarms, pairs)};
     };
@@ -165,10 +165,10 @@ Counts count_findings(int pairs, const Compare& compare_once)
 {
     Counts counts;
     for (int i = 0; i < pairs; ++i) {
-        const Finding finding = compare_once(static_cast<std::uint64_t>(1000 + i)).significance.finding;
-        ++(finding == Finding::same        ? counts.same
-           : finding == Finding::different ? counts.different
-                                           : counts.undecided);
+        const auto verdict = compare_once(static_cast<std::uint64_t>(1000 + i)).significance.verdict;
+        ++(verdict == Verdict::passes    ? counts.same
+           : verdict == Verdict::differs ? counts.different
+                                         : counts.undecided);
     }
     return counts;
 }
@@ -248,14 +248,14 @@ TEST_CASE("an image whose noise is smooth is not said to agree", "[statistical][
         // But a gross error is found.
         Trial wrong = trial;
         wrong.bias = 1.3;
-        CHECK(compare_single(wrong, 1).significance.finding == Finding::different);
+        CHECK(compare_single(wrong, 1).significance.verdict == Verdict::differs);
     }
     // Against another smooth image, the correlation is seen.
     const Trial trial{.kind = exponential_samples(), .size = 128, .filter = 5.0};
     const Image a = make_a(trial, 1);
     const Image b = make_a(trial, 2);
     const Comparison smooth = compare(a, b, settings_of(trial));
-    CHECK(smooth.significance.finding == Finding::undecided);
+    CHECK(smooth.significance.verdict == Verdict::undecided);
     REQUIRE(smooth.significance.difference_noise);
     CHECK(!smooth.significance.difference_noise->reach);
 }
@@ -270,7 +270,7 @@ TEST_CASE("the verdict on a single image finds small errors", "[statistical][com
         const Comparison wrong =
             compare(with_brighter_half(make_a(how, 1), 1.03f), make_b(how, 2), settings_of(how));
         INFO(text_of(how) << ": p " << wrong.significance.p);
-        CHECK(wrong.significance.finding == Finding::different);
+        CHECK(wrong.significance.verdict == Verdict::differs);
         CHECK(wrong.significance.p < 1e-4);
         // It is known where.
         CHECK(wrong.significance.differing > 128 * 128 / 4);
@@ -297,7 +297,7 @@ TEST_CASE("the verdict on a single image finds what is small but everywhere", "[
     for (int y = 0; y < 256; ++y)
         for (int x = 0; x < 256; ++x) *a.pixel(x, y) *= ((x / 64) + (y / 64)) % 2 ? 1.004f : 0.996f;
     const Comparison found = compare(a, make_b(trial, 2), settings_of(trial));
-    CHECK(found.significance.finding == Finding::different);
+    CHECK(found.significance.verdict == Verdict::differs);
     double smallest = 1.0;
     for (const SpreadTest& test : found.significance.spread) smallest = std::min(smallest, test.p);
     CHECK(smallest < 1e-4);

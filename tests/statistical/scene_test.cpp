@@ -92,10 +92,10 @@ TEST_CASE("what a ray sees has the density with which it would have been sampled
     CHECK(compared > 1000);
 }
 
-TEST_CASE("a scene of another scale gives the same picture", "[statistical][scene][scale]")
+TEST_CASE("a scene of another scale gives the same image", "[statistical][scene][scale]")
 {
     // A floor, a glass and a matte ball, a sphere lamp and a point light, everything scaled alike; the point light's
-    // intensity by the square. The same seed draws the same paths, so means agree far within the noise of one picture.
+    // intensity by the square. The same seed draws the same paths, so means agree far within the noise of one image.
     const auto mean_at_scale = [](double s) {
         const auto scaled = [s](double x) { return fmt::format("{:.9g}", x * s); };
         const std::string xml = fmt::format(

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-// The project's own scenes: path, path_nee and path_mis converge to the same picture. That the pictures of references/ are
+// The project's own scenes: path, path_nee and path_mis converge to the same image. That the images of references/ are
 // what they converge to is tested by regression/suite.xml.
 
 #include "build_paths.h"
@@ -34,10 +34,10 @@ double mean_luminance(const Image& image)
     return mean.mean();
 }
 
-// The mean of a whole picture, as many times as there are replicates with seeds of their own.
+// The mean of a whole image, as many times as there are replicates with seeds of their own.
 constexpr std::uint64_t replicates = 24;
 
-MeanAndVariance picture_means(const RenderJob& job, std::uint64_t samples_per_pixel, std::uint64_t seed)
+MeanAndVariance image_means(const RenderJob& job, std::uint64_t samples_per_pixel, std::uint64_t seed)
 {
     MeanAndVariance means;
     for (std::uint64_t i = 0; i < replicates; ++i) {
@@ -60,8 +60,8 @@ void check_agreement(const std::vector<std::string>& scenes, std::uint64_t sampl
             CHECK(test::check_statistic(
                 name,
                 [&](std::uint64_t samples, std::uint64_t seed) {
-                    return test::same_mean_outcome(picture_means(other.job, samples, seed),
-                                                   picture_means(mis.job, samples, seed + 50));
+                    return test::same_mean_outcome(image_means(other.job, samples, seed),
+                                                   image_means(mis.job, samples, seed + 50));
                 },
                 samples_per_pixel, level));
         }

@@ -18,7 +18,7 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-// A picture of 8 x 8 pixels from the origin along +z, with all AOVs.
+// An image of 8 x 8 pixels from the origin along +z, with all AOVs.
 class Rendered {
 public:
     Rendered(const std::string& shapes, float fov = 40.f, std::uint64_t samples = 16,

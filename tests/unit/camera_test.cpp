@@ -52,7 +52,7 @@ TEST_CASE("the perspective camera: fov is horizontal, +x is left, row 0 is up", 
     CHECK(left.t_max == infinity);
 }
 
-TEST_CASE("a mirrored view is the picture flopped", "[unit][camera]")
+TEST_CASE("a mirrored view is the image flopped", "[unit][camera]")
 {
     const auto plain = make(camera_params());
     const auto mirrored = make(camera_params().boolean("mirrored", true));
@@ -76,7 +76,7 @@ TEST_CASE("a thin lens is sharp in its plane of focus", "[unit][camera]")
     const auto camera = make(
         camera_params().number("lensRadius", 0.25).number("focalDistance", 4.0).transform("toWorld", moved));
 
-    // All rays of one place of the picture meet where the pinhole's ray crosses the plane of focus, and leave from a
+    // All rays of one place of the image meet where the pinhole's ray crosses the plane of focus, and leave from a
     // disk of the lens's radius.
     const auto pinhole = make(camera_params().transform("toWorld", moved));
     const Transform to_camera = moved.inverse();
@@ -98,7 +98,7 @@ TEST_CASE("a thin lens is sharp in its plane of focus", "[unit][camera]")
     CHECK(largest > 0.2f);
 }
 
-TEST_CASE("cameras refuse what makes no picture", "[unit][camera]")
+TEST_CASE("cameras refuse what makes no image", "[unit][camera]")
 {
     const auto complaints = [](const ParamsBuilder& params) {
         const auto found = params.complaints<PerspectiveCamera, Camera>();

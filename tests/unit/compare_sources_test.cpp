@@ -6,7 +6,7 @@
 #include "plumb/base/error.h"
 #include "plumb/compare/compare.h"
 #include "support/catch.h"
-#include "support/noisy_picture.h"
+#include "support/noisy_image.h"
 
 using namespace plumb;
 using namespace plumb::test;
@@ -23,9 +23,9 @@ CompareSettings plain()
     return options;
 }
 
-NoisyPicture colors(double bias = 1.0)
+NoisyImage colors(double bias = 1.0)
 {
-    NoisyPicture how;
+    NoisyImage how;
     how.size = side;
     how.samples = samples;
     how.bias = bias;
@@ -88,7 +88,7 @@ Image changed(const Image& image, const Value& value)
 std::string hint(const Image& a, const Image& b)
 {
     const Comparison found = compare(a, b, plain());
-    CHECK(found.outcome != CompareOutcome::passes);
+    CHECK(found.verdict != Verdict::passes);
     return found.alignment ? found.alignment->change : "none";
 }
 
@@ -96,8 +96,8 @@ std::string hint(const Image& a, const Image& b)
 
 TEST_CASE("variance channels of other renderers count as what they are", "[unit][compare]")
 {
-    const Image ours = noisy_picture(colors(), exponential_samples(), 1);
-    const Image reference = noisy_picture(colors(), exponential_samples(), 2);
+    const Image ours = noisy_image(colors(), exponential_samples(), 1);
+    const Image reference = noisy_image(colors(), exponential_samples(), 2);
     const CompareSettings options = plain();
     const Comparison expected = compare(ours, reference, options);
     CHECK(expected.noise_a == "variance channels");
@@ -130,8 +130,8 @@ TEST_CASE("variance channels of other renderers count as what they are", "[unit]
 
 TEST_CASE("moments give error bars of the luminance", "[unit][compare]")
 {
-    const Image ours = noisy_picture(colors(), exponential_samples(), 1);
-    const Image reference = noisy_picture(colors(), exponential_samples(), 2);
+    const Image ours = noisy_image(colors(), exponential_samples(), 1);
+    const Image reference = noisy_image(colors(), exponential_samples(), 2);
     const std::vector<std::string> names = {
         "R", "G", "B", "nested.X", "nested.Y", "nested.Z", "m2_nested.X", "m2_nested.Y", "m2_nested.Z"};
     Image moments({0, 0, side, side}, side, side, names);
@@ -149,15 +149,15 @@ TEST_CASE("moments give error bars of the luminance", "[unit][compare]")
     const Comparison found = compare(moments, reference, options);
     CHECK(found.channels == std::vector<std::string>{"Y"});
     CHECK(found.noise_a == "m2_nested.Y of 64 samples");
-    CHECK(found.outcome == CompareOutcome::passes);
+    CHECK(found.verdict == Verdict::passes);
     CHECK(found.corrected->squared_error ==
           Approx(compare(ours, reference, plain()).corrected->squared_error).margin(2e-4));
 }
 
 TEST_CASE("colours are found in layers", "[unit][compare]")
 {
-    const Image ours = noisy_picture(colors(), exponential_samples(), 1);
-    const Image reference = noisy_picture(colors(), exponential_samples(), 2);
+    const Image ours = noisy_image(colors(), exponential_samples(), 1);
+    const Image reference = noisy_image(colors(), exponential_samples(), 2);
     CompareSettings options = plain();
     const std::vector<float> ones(7, 1.f);
     // Blender: the only layer of colours, and one of several.
@@ -174,7 +174,7 @@ TEST_CASE("colours are found in layers", "[unit][compare]")
                                                   "one.G, one.B, two.R, two.G, two.B; choose a layer with "
                                                   "--layer NAME: one, two");
     options.layer = "one";
-    CHECK(compare(unclear, reference, options).outcome == CompareOutcome::passes);
+    CHECK(compare(unclear, reference, options).verdict == Verdict::passes);
     options.layer = "three";
     CHECK(problem(unclear, reference, options) == "A has no layer 'three'; it has one, two");
     // Alpha is no light.
@@ -193,11 +193,10 @@ TEST_CASE("colours are found in layers", "[unit][compare]")
 
 TEST_CASE("replicas have the error bars that their spread gives", "[unit][compare]")
 {
-    NoisyPicture how = colors();
+    NoisyImage how = colors();
     how.knows_noise = false;
     std::vector<Image> replicas;
-    for (std::uint64_t k = 0; k < 4; ++k)
-        replicas.push_back(noisy_picture(how, exponential_samples(), 10 + k));
+    for (std::uint64_t k = 0; k < 4; ++k) replicas.push_back(noisy_image(how, exponential_samples(), 10 + k));
     const Image mean = mean_of_replicas(replicas, Side::a);
     REQUIRE(mean.channel_names() ==
             std::vector<std::string>{"R", "G", "B", "variance.R", "variance.G", "variance.B"});
@@ -210,18 +209,18 @@ TEST_CASE("replicas have the error bars that their spread gives", "[unit][compar
     CHECK(static_cast<double>(mean.pixel(3, 5)[0]) == Approx(sum / 4));
     CHECK(static_cast<double>(mean.pixel(3, 5)[3]) == Approx((squares - sum * sum / 4) / 3 / 4));
 
-    const Image reference = noisy_picture(colors(), exponential_samples(), 2);
+    const Image reference = noisy_image(colors(), exponential_samples(), 2);
     const Comparison same = compare(mean, reference, plain());
     CHECK(same.noise_a == "4 replicas");
-    CHECK(same.outcome == CompareOutcome::passes);
+    CHECK(same.verdict == Verdict::passes);
 
     std::vector<Image> twice;
-    for (int k = 0; k < 2; ++k) twice.push_back(noisy_picture(how, exponential_samples(), 10));
+    for (int k = 0; k < 2; ++k) twice.push_back(noisy_image(how, exponential_samples(), 10));
     CHECK_THROWS_WITH(mean_of_replicas(twice, Side::a),
                       "A1 and A2 have the same pixels; replicas need different seeds");
     how.size = 16;
     twice.pop_back();
-    twice.push_back(noisy_picture(how, exponential_samples(), 11));
+    twice.push_back(noisy_image(how, exponential_samples(), 11));
     CHECK_THROWS_WITH(mean_of_replicas(twice, Side::b),
                       "B1 and B2 have different sizes: 32x32 and 16x16 pixels");
 }
@@ -230,7 +229,7 @@ TEST_CASE("an image that differs is compared after changes", "[unit][compare]")
 {
     const Image a = scene(1);
     const Image b = scene(2, 0.025);
-    CHECK(compare(a, b, plain()).outcome == CompareOutcome::passes);
+    CHECK(compare(a, b, plain()).verdict == Verdict::passes);
     CHECK_FALSE(compare(a, b, plain()).alignment);
     const auto at = [&a](int x, int y, int c) { return a.pixel(x, y)[c]; };
     CHECK(hint(changed(a, [&](int x, int y, int c) { return at(63 - x, y, c); }), b) ==

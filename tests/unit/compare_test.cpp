@@ -3,7 +3,7 @@
 #include "plumb/compare/compare.h"
 #include "plumb/reports/comparison_report.h"
 #include "support/catch.h"
-#include "support/noisy_picture.h"
+#include "support/noisy_image.h"
 
 using namespace plumb;
 using namespace plumb::test;
@@ -93,7 +93,7 @@ TEST_CASE("channels are found by name", "[unit][compare]")
     CHECK(c.channels == std::vector<std::string>{"R", "G", "B"});
 }
 
-TEST_CASE("pictures that cannot be compared say why", "[unit][compare]")
+TEST_CASE("images that cannot be compared say why", "[unit][compare]")
 {
     CHECK(problem(grey(2, 1, 0.f), grey(1, 2, 0.f)) ==
           "the images have different sizes: A is 2x1 pixels, B is 1x2 pixels");
@@ -117,7 +117,7 @@ TEST_CASE("pixels that are not finite differ unless both have them", "[unit][com
     CompareSettings options;
     options.thresholds = {{"rmse", 0.1}};
     const Comparison one = compare(a, b, options);
-    CHECK(one.outcome == CompareOutcome::differs);
+    CHECK(one.verdict == Verdict::differs);
     CHECK(one.exceeded.empty());
     CHECK(one.non_finite.only_a == 1);
     CHECK(one.non_finite.first == Vec2i(2, 1));
@@ -126,17 +126,17 @@ TEST_CASE("pixels that are not finite differ unless both have them", "[unit][com
     CHECK(compare(b, a, options).non_finite.only_b == 1);
 
     options.fail_percent = 12.0; // one of nine is 11.1 %
-    CHECK(compare(a, b, options).outcome == CompareOutcome::passes);
+    CHECK(compare(a, b, options).verdict == Verdict::passes);
     options.fail_percent = 11.0;
-    CHECK(compare(a, b, options).outcome == CompareOutcome::differs);
+    CHECK(compare(a, b, options).verdict == Verdict::differs);
 
     b.pixel(2, 1)[0] = infinity;
     const Comparison both = compare(a, b);
     CHECK(both.non_finite.both == 1);
-    CHECK(both.outcome == CompareOutcome::passes); // it is left out, and the others are equal
+    CHECK(both.verdict == Verdict::passes); // it is left out, and the others are equal
     b.pixel(2, 1)[0] = not_a_number;
     CHECK(compare(a, b).identical);
-    CHECK(compare(a, b).outcome == CompareOutcome::passes);
+    CHECK(compare(a, b).verdict == Verdict::passes);
 }
 
 TEST_CASE("limits decide where nobody knows the noise", "[unit][compare]")
@@ -145,39 +145,39 @@ TEST_CASE("limits decide where nobody knows the noise", "[unit][compare]")
     const Image b = grey(4, 4, 1.25f);
     CompareSettings options;
     const Comparison neither = compare(a, b, options);
-    CHECK(neither.significance.finding == Finding::different); // and nothing looks like noise
-    CHECK(neither.outcome == CompareOutcome::differs);
+    CHECK(neither.significance.verdict == Verdict::differs); // and nothing looks like noise
+    CHECK(neither.verdict == Verdict::differs);
     CHECK_FALSE(neither.corrected);
     options.thresholds = {{"rmse", 0.25}, {"mae", 0.3}};
     const Comparison limited = compare(a, b, options);
-    CHECK(limited.outcome == CompareOutcome::passes);
-    CHECK(limited.significance.finding == Finding::not_asked);
+    CHECK(limited.verdict == Verdict::passes);
+    CHECK(limited.significance.verdict == std::nullopt);
     CHECK(limited.significance.reason == "neither image has variance channels, and limits are given");
     options.thresholds.push_back({"mse", 0.06});
     const Comparison above = compare(a, b, options);
-    CHECK(above.outcome == CompareOutcome::differs);
+    CHECK(above.verdict == Verdict::differs);
     REQUIRE(above.exceeded.size() == 1);
     CHECK(above.exceeded[0].metric == "mse");
     options.thresholds = {{"psnr", 12.0}}; // it is 12.04
-    CHECK(compare(a, b, options).outcome == CompareOutcome::passes);
+    CHECK(compare(a, b, options).verdict == Verdict::passes);
     options.thresholds = {{"psnr", 12.1}};
-    CHECK(compare(a, b, options).outcome == CompareOutcome::differs);
+    CHECK(compare(a, b, options).verdict == Verdict::differs);
 }
 
 TEST_CASE("an exact image has no noise", "[unit][compare]")
 {
-    const NoisyPicture how;
-    const Image a = noisy_picture(how, exponential_samples(), 1);
-    const Image truth = true_picture(how);
+    const NoisyImage how;
+    const Image a = noisy_image(how, exponential_samples(), 1);
+    const Image truth = true_image(how);
     CompareSettings options = without_flip();
     const Comparison single = compare(a, truth, options);
-    CHECK(single.outcome == CompareOutcome::undecided);
+    CHECK(single.verdict == Verdict::undecided);
     CHECK(single.significance.reason ==
           "B shows no noise of its own beside that of A, as after a denoiser; if it has "
           "none, pass --exact B");
     options.exact = Side::b;
     const Comparison exact = compare(a, truth, options);
-    CHECK(exact.outcome == CompareOutcome::passes);
+    CHECK(exact.verdict == Verdict::passes);
     REQUIRE(exact.corrected);
     CHECK(exact.corrected->low < 0.0);
     CHECK(exact.corrected->high > 0.0);
@@ -185,26 +185,26 @@ TEST_CASE("an exact image has no noise", "[unit][compare]")
     CHECK(exact.metrics.mse == Approx(1.0 / 64.0).epsilon(0.3));
     CHECK(std::abs(exact.corrected->squared_error) < 0.3 / 64.0);
     options.exact = Side::a;
-    CHECK(compare(truth, a, options).outcome == CompareOutcome::passes);
+    CHECK(compare(truth, a, options).verdict == Verdict::passes);
     options.exact = Side::b;
     options.verdict = false;
-    CHECK(compare(a, truth, options).significance.finding == Finding::not_asked);
+    CHECK(compare(a, truth, options).significance.verdict == std::nullopt);
 }
 
 TEST_CASE("a bias is found, and where it is", "[unit][compare]")
 {
-    NoisyPicture how;
+    NoisyImage how;
     how.size = 32;
     how.channels = {"R", "G", "B"};
-    const Image a = noisy_picture(how, exponential_samples(), 1);
-    Image b = noisy_picture(how, exponential_samples(), 2);
-    CHECK(compare(a, b, without_flip()).outcome == CompareOutcome::passes);
+    const Image a = noisy_image(how, exponential_samples(), 1);
+    Image b = noisy_image(how, exponential_samples(), 2);
+    CHECK(compare(a, b, without_flip()).verdict == Verdict::passes);
 
     SECTION("everywhere")
     {
         how.bias = 1.1;
-        const Comparison c = compare(noisy_picture(how, exponential_samples(), 3), b, without_flip());
-        CHECK(c.outcome == CompareOutcome::differs);
+        const Comparison c = compare(noisy_image(how, exponential_samples(), 3), b, without_flip());
+        CHECK(c.verdict == Verdict::differs);
         CHECK(c.significance.scales.back().rejected == 1);
         CHECK(c.significance.scales.back().largest->mean_a > 1.05);
         CHECK(c.significance.scales.front().rejected == 0);
@@ -214,7 +214,7 @@ TEST_CASE("a bias is found, and where it is", "[unit][compare]")
         for (int y = 8; y < 16; ++y)
             for (int x = 16; x < 24; ++x) b.pixel(x, y)[1] *= 1.5f;
         const Significance s = compare(a, b, without_flip()).significance;
-        CHECK(s.finding == Finding::different);
+        CHECK(s.verdict == Verdict::differs);
         UnitTest most;
         for (const ScaleTest& scale : s.scales)
             if (scale.size != 0 && scale.largest && scale.largest->p < most.p) most = *scale.largest;
@@ -231,74 +231,74 @@ TEST_CASE("a bias is found, and where it is", "[unit][compare]")
         for (int c = 0; c < 3; ++c) b.pixel(5, 6)[c] += 100.f;
         CompareSettings options = without_flip();
         const Significance s = compare(a, b, options).significance;
-        CHECK(s.finding == Finding::different);
+        CHECK(s.verdict == Verdict::differs);
         CHECK(s.differing >= 1);
         CHECK(s.differing <= 16);
         CHECK(s.scales.back().rejected == 0); // without that pixel
         CHECK(s.p < 0.01);
         options.fail_percent = 2.0;
-        CHECK(compare(a, b, options).outcome == CompareOutcome::passes);
+        CHECK(compare(a, b, options).verdict == Verdict::passes);
     }
 }
 
 TEST_CASE("what the data do not support is not tested", "[unit][compare]")
 {
-    NoisyPicture how;
+    NoisyImage how;
     how.size = 32;
     // 65536 samples, of which 6 or 7 hit: too few to say anything.
     const Comparison few =
-        compare(noisy_picture(how, hits(1e-4), 1), noisy_picture(how, hits(1e-4), 2), without_flip());
-    CHECK(few.significance.finding == Finding::undecided);
-    CHECK(few.outcome == CompareOutcome::undecided);
+        compare(noisy_image(how, hits(1e-4), 1), noisy_image(how, hits(1e-4), 2), without_flip());
+    CHECK(few.significance.verdict == Verdict::undecided);
+    CHECK(few.verdict == Verdict::undecided);
     CHECK(few.significance.untested == 32 * 32);
     CHECK_FALSE(few.significance.detectable_bias);
     // 650 hits: the whole can be tested, no pixel can.
     const Comparison some =
-        compare(noisy_picture(how, hits(1e-2), 1), noisy_picture(how, hits(1e-2), 2), without_flip());
-    CHECK(some.outcome == CompareOutcome::passes);
+        compare(noisy_image(how, hits(1e-2), 1), noisy_image(how, hits(1e-2), 2), without_flip());
+    CHECK(some.verdict == Verdict::passes);
     CHECK(some.significance.scales.front().tested == 0);
     CHECK(some.significance.scales.back().tested == 1);
     CHECK(*some.significance.detectable_bias > 0.05);
     // One pixel has nearly all of the noise.
-    Image spiky = noisy_picture(how, exponential_samples(), 3);
+    Image spiky = noisy_image(how, exponential_samples(), 3);
     spiky.pixel(3, 3)[0] = 1000.f;
     spiky.pixel(3, 3)[1] = 1e6f;
-    const Comparison spike = compare(spiky, noisy_picture(how, exponential_samples(), 4), without_flip());
-    CHECK(spike.outcome == CompareOutcome::undecided);
+    const Comparison spike = compare(spiky, noisy_image(how, exponential_samples(), 4), without_flip());
+    CHECK(spike.verdict == Verdict::undecided);
     CHECK(spike.significance.untested >= 1);
     CHECK(spike.significance.untested <= 16);
 
     SECTION("nor a variance that nobody knows")
     {
-        Image unknown = noisy_picture(how, exponential_samples(), 5);
-        const Image other = noisy_picture(how, exponential_samples(), 6);
+        Image unknown = noisy_image(how, exponential_samples(), 5);
+        const Image other = noisy_image(how, exponential_samples(), 6);
         unknown.pixel(0, 0)[1] = not_a_number;
         CHECK(compare(unknown, other, without_flip()).significance.untested == 1);
-        CHECK(compare(unknown, other, without_flip()).outcome == CompareOutcome::undecided);
+        CHECK(compare(unknown, other, without_flip()).verdict == Verdict::undecided);
     }
-    SECTION("but the same picture is the same")
+    SECTION("but the same image is the same")
     {
-        const Image a = noisy_picture(how, hits(1e-4), 1);
-        CHECK(compare(a, a, without_flip()).outcome == CompareOutcome::passes);
+        const Image a = noisy_image(how, hits(1e-4), 1);
+        CHECK(compare(a, a, without_flip()).verdict == Verdict::passes);
     }
-    SECTION("nor black against a picture")
+    SECTION("nor black against an image")
     {
         const SampleKind nothing = one_by_one("0", [](TestRandom&) { return 0.0; });
-        CHECK(compare(noisy_picture(how, nothing, 1), noisy_picture(how, exponential_samples(), 2),
-                      without_flip())
-                  .outcome == CompareOutcome::undecided);
+        CHECK(
+            compare(noisy_image(how, nothing, 1), noisy_image(how, exponential_samples(), 2), without_flip())
+                .verdict == Verdict::undecided);
     }
 }
 
-TEST_CASE("rare light that one picture has missed is no difference", "[unit][compare]")
+TEST_CASE("rare light that one image has missed is no difference", "[unit][compare]")
 {
-    SECTION("where the other picture tells of it")
+    SECTION("where the other image tells of it")
     {
         // 4096 samples, none of which is bright, and 262144: the mean of so few deviates by 0.11.
         const Image few = sampled(16, 1.f, 0.01f, 16);
-        CHECK(compare(few, sampled(16, 1.3f, 50.f, 1024), without_flip()).outcome == CompareOutcome::passes);
-        CHECK(compare(few, sampled(16, 1.8f, 50.f, 1024), without_flip()).outcome == CompareOutcome::differs);
-        CHECK(compare(few, sampled(16, 1.3f, 5.f, 1024), without_flip()).outcome == CompareOutcome::differs);
+        CHECK(compare(few, sampled(16, 1.3f, 50.f, 1024), without_flip()).verdict == Verdict::passes);
+        CHECK(compare(few, sampled(16, 1.8f, 50.f, 1024), without_flip()).verdict == Verdict::differs);
+        CHECK(compare(few, sampled(16, 1.3f, 5.f, 1024), without_flip()).verdict == Verdict::differs);
     }
     SECTION("where the surroundings tell of it")
     {
@@ -313,16 +313,16 @@ TEST_CASE("rare light that one picture has missed is no difference", "[unit][com
             describe(image, "path", "1");
             Image reference = sampled(64, 1.f, 0.01f, 1024);
             describe(reference, other_integrator, "2");
-            return compare(image, reference, without_flip()).outcome;
+            return compare(image, reference, without_flip()).verdict;
         };
-        CHECK(outcome(100.f, "smooth") == CompareOutcome::passes);
-        CHECK(outcome(1.f, "smooth") == CompareOutcome::differs);
-        // The same estimator, but the picture of more samples knows of no rare light.
-        CHECK(outcome(100.f, "path") == CompareOutcome::differs);
+        CHECK(outcome(100.f, "smooth") == Verdict::passes);
+        CHECK(outcome(1.f, "smooth") == Verdict::differs);
+        // The same estimator, but the image of more samples knows of no rare light.
+        CHECK(outcome(100.f, "path") == Verdict::differs);
     }
 }
 
-TEST_CASE("pictures too alike are said to be of one seed only if they are", "[unit][compare]")
+TEST_CASE("images too alike are said to be of one seed only if they are", "[unit][compare]")
 {
     const auto text = [](const std::string& seed, const std::string& integrator) {
         Image a = sampled(16, 1.f, 1.f, 16);
@@ -340,13 +340,13 @@ TEST_CASE("pictures too alike are said to be of one seed only if they are", "[un
 
 TEST_CASE("rounding is no difference", "[unit][compare]")
 {
-    NoisyPicture how;
+    NoisyImage how;
     const SampleKind one = one_by_one("1", [](TestRandom&) { return 1.0; });
-    const Image a = noisy_picture(how, one, 1);
+    const Image a = noisy_image(how, one, 1);
     how.bias = 1.0 + 5e-6;
-    CHECK(compare(noisy_picture(how, one, 1), a, without_flip()).outcome == CompareOutcome::passes);
+    CHECK(compare(noisy_image(how, one, 1), a, without_flip()).verdict == Verdict::passes);
     how.bias = 1.0 + 5e-5;
-    CHECK(compare(noisy_picture(how, one, 1), a, without_flip()).outcome == CompareOutcome::differs);
+    CHECK(compare(noisy_image(how, one, 1), a, without_flip()).verdict == Verdict::differs);
 }
 
 TEST_CASE("difference images have a bar below them", "[unit][compare]")

@@ -289,7 +289,7 @@ TEST_CASE("a sphere with path_mis may be eth's", "[unit][dialect]")
     CHECK(loading_warnings(whole(sphere, "<integrator type='path_mats'/>")).empty());
 }
 
-TEST_CASE("warnings name what would change this picture, with numbers", "[unit][dialect]")
+TEST_CASE("warnings name what would change this image, with numbers", "[unit][dialect]")
 {
     const TempDirectory directory;
     Image map(8, 4);
@@ -317,7 +317,7 @@ TEST_CASE("warnings name what would change this picture, with numbers", "[unit][
     CHECK((one.environment_scale == 1.f && !one.environment_flipped));
     CHECK_THAT(one_text, ContainsSubstring("divided by 255: mean 0.002, not 0.5") &&
                              ContainsSubstring("--dialect zaragoza") && !ContainsSubstring("lamps"));
-    // Two do, and it is said what that makes of the picture.
+    // Two do, and it is said what that makes of the image.
     const auto [two, two_text] = load(whole(around + point, nee));
     CHECK((two.environment_scale == 1.f / 255.f && two.environment_flipped));
     CHECK_THAT(two_text, ContainsSubstring("divided by 255: mean 0.002, not 0.5 (--envmap-scale 1"));

@@ -28,17 +28,17 @@ Color texel(int x, int y)
     return {static_cast<float>(1 + x + 10 * y), static_cast<float>(x * x), static_cast<float>(y)};
 }
 
-// The pictures under test: all texels different; one bright texel in the dark, in a corner; all black but a row.
-enum class Picture { varied, one_texel, one_row };
+// The images under test: all texels different; one bright texel in the dark, in a corner; all black but a row.
+enum class Image { varied, one_texel, one_row };
 
-Image picture(Picture which)
+Image image(Image which)
 {
     Image image(width, height);
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
-            const bool lit = which == Picture::varied ||
-                             (which == Picture::one_texel && x == width - 1 && y == 0) ||
-                             (which == Picture::one_row && y == 2);
+            const bool lit = which == Image::varied ||
+                             (which == Image::one_texel && x == width - 1 && y == 0) ||
+                             (which == Image::one_row && y == 2);
             const Color color = lit ? texel(x, y) : Color(0.f);
             for (int c = 0; c < 3; ++c) image.pixel(x, y)[c] = color[c];
         }
@@ -53,10 +53,10 @@ ParamsBuilder environment_params(bool flipped)
     return params;
 }
 
-std::unique_ptr<Emitter> environment(Picture which, bool flipped, const Color& radiance = Color(1.f))
+std::unique_ptr<Emitter> environment(Image which, bool flipped, const Color& radiance = Color(1.f))
 {
     const TempDirectory directory;
-    write_image(directory / "sky.exr", picture(which));
+    write_image(directory / "sky.exr", image(which));
     return environment_params(flipped)
         .directory(directory.path())
         .string("filename", "sky.exr")
@@ -99,10 +99,10 @@ void check_color(const Color& a, const Color& b)
 
 } // namespace
 
-TEST_CASE("an environment picture starts at +y, and its columns run from +x over +z", "[unit][environment]")
+TEST_CASE("an environment image starts at +y, and its columns run from +x over +z", "[unit][environment]")
 {
     const Color tint(2.f, 1.f, 0.5f);
-    const auto emitter = environment(Picture::varied, false, tint);
+    const auto emitter = environment(Image::varied, false, tint);
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
             const double phi = 2.0 * pi_d * (x + 0.5) / width;
@@ -116,9 +116,9 @@ TEST_CASE("an environment picture starts at +y, and its columns run from +x over
     check_color(seen(*emitter, direction(pi_d / width, pi_d - 1e-3)).radiance, texel(0, height - 1) * tint);
 }
 
-TEST_CASE("in Zaragoza's dialect an environment picture runs the other way", "[unit][environment]")
+TEST_CASE("in Zaragoza's dialect an environment image runs the other way", "[unit][environment]")
 {
-    const auto emitter = environment(Picture::varied, true);
+    const auto emitter = environment(Image::varied, true);
     for (int y = 1; y < height; ++y) // row 0 is at the poles
         for (int x = 0; x < width; ++x) {
             const double phi = 2.0 * pi_d * (1.0 - static_cast<double>(x) / width);
@@ -130,11 +130,11 @@ TEST_CASE("in Zaragoza's dialect an environment picture runs the other way", "[u
                 (texel(2, 0) * 0.75f + texel(2, height - 1) * 0.25f) * 0.5f);
 }
 
-TEST_CASE("the density of environment light integrates to 1, and its power is that of the picture",
+TEST_CASE("the density of environment light integrates to 1, and its power is that of the image",
           "[unit][environment]")
 {
     const bool flipped = GENERATE(false, true);
-    const Picture which = GENERATE(Picture::varied, Picture::one_texel, Picture::one_row);
+    const Image which = GENERATE(Image::varied, Image::one_texel, Image::one_row);
     const auto emitter = environment(which, flipped);
     CHECK(integral([&](const Vec3f& wi) { return seen(*emitter, wi).pdf; }) == Approx(1.0).epsilon(1e-5));
 
@@ -148,7 +148,7 @@ TEST_CASE("the density of environment light integrates to 1, and its power is th
 TEST_CASE("environment light can be sampled wherever it is not black", "[unit][environment]")
 {
     const bool flipped = GENERATE(false, true);
-    const Picture which = GENERATE(Picture::varied, Picture::one_texel, Picture::one_row);
+    const Image which = GENERATE(Image::varied, Image::one_texel, Image::one_row);
     const auto emitter = environment(which, flipped);
     TestRandom random;
     int lit = 0;
@@ -164,7 +164,7 @@ TEST_CASE("environment light can be sampled wherever it is not black", "[unit][e
 TEST_CASE("samples of environment light agree with evaluate", "[unit][environment]")
 {
     const bool flipped = GENERATE(false, true);
-    const Picture which = GENERATE(Picture::varied, Picture::one_texel, Picture::one_row);
+    const Image which = GENERATE(Image::varied, Image::one_texel, Image::one_row);
     const auto emitter = environment(which, flipped);
     CHECK(emitter->is_infinite());
     CHECK_FALSE(emitter->is_delta());
@@ -189,7 +189,7 @@ TEST_CASE("samples of environment light agree with evaluate", "[unit][environmen
 TEST_CASE("environment light is sampled with the density it claims", "[statistical][environment]")
 {
     const bool flipped = GENERATE(false, true);
-    const Picture which = GENERATE(Picture::varied, Picture::one_texel, Picture::one_row);
+    const Image which = GENERATE(Image::varied, Image::one_texel, Image::one_row);
     const auto emitter = environment(which, flipped);
     const double level = test::sidak_level(test::significance, 12);
 
@@ -254,7 +254,7 @@ TEST_CASE("environment light is sampled with the density it claims", "[statistic
 TEST_CASE("an environment of one colour", "[unit][environment]")
 {
     const Color radiance(0.5f, 1.f, 2.f);
-    const auto emitter = environment_params(GENERATE(false, true)) // which changes pictures only
+    const auto emitter = environment_params(GENERATE(false, true)) // which changes images only
                              .color("radiance", radiance)
                              .build<EnvironmentEmitter, Emitter>();
     emitter->prepare({Vec3f(0.f), 2.f});
@@ -271,14 +271,14 @@ TEST_CASE("black environments give no samples", "[unit][environment]")
 {
     const TempDirectory directory;
     write_image(directory / "black.exr", Image(3, 2));
-    const auto picture_of_nothing = ParamsBuilder("emitter", "environment")
-                                        .directory(directory.path())
-                                        .string("filename", "black.exr")
-                                        .build<EnvironmentEmitter, Emitter>();
+    const auto image_of_nothing = ParamsBuilder("emitter", "environment")
+                                      .directory(directory.path())
+                                      .string("filename", "black.exr")
+                                      .build<EnvironmentEmitter, Emitter>();
     const auto black = ParamsBuilder("emitter", "environment")
                            .color("radiance", Color(0.f))
                            .build<EnvironmentEmitter, Emitter>();
-    for (const Emitter* emitter : {picture_of_nothing.get(), black.get()}) {
+    for (const Emitter* emitter : {image_of_nothing.get(), black.get()}) {
         emitter->evaluate(Vec3f(0.f), Vec3f(0, 1, 0), nullptr, Measure::best);
         CHECK_FALSE(emitter->sample({Vec3f(0.f)}, 0.5, {0.5f, 0.5f}, Measure::best));
         CHECK(seen(*emitter, Vec3f(0, 1, 0)).pdf == 0.f);
@@ -286,7 +286,7 @@ TEST_CASE("black environments give no samples", "[unit][environment]")
     }
 }
 
-TEST_CASE("environment pictures that are not light", "[unit][environment]")
+TEST_CASE("environment images that are not light", "[unit][environment]")
 {
     const TempDirectory directory;
     Image image(4, 3);

@@ -35,7 +35,7 @@ TEST_CASE("a film's sum does not depend on the order of samples", "[unit][film]"
     }
     const auto sum_up = [&] {
         Film film(one_pixel, 1, 1);
-        for (const Color& sample : samples) REQUIRE(film.add({0, 0}, sample, 1.f) == Verdict::accepted);
+        for (const Color& sample : samples) REQUIRE(film.add({0, 0}, sample, 1.f) == SampleStatus::accepted);
         return developed(film);
     };
     const Color forward = sum_up();
@@ -66,17 +66,17 @@ TEST_CASE("a film leaves out what it cannot hold, and nothing else", "[unit][fil
 {
     Film film(one_pixel, 1, 1);
     const float not_a_number = std::numeric_limits<float>::quiet_NaN();
-    CHECK(film.add({0, 0}, Color(1.f, not_a_number, 1.f), 1.f) == Verdict::not_finite);
-    CHECK(film.add({0, 0}, Color(infinity), 1.f) == Verdict::not_finite);
-    CHECK(film.add({0, 0}, Color(1.f, -1e-20f, 1.f), 1.f) == Verdict::negative);
-    CHECK(film.add({0, 0}, Color(film_max_value), 1.f) == Verdict::out_of_range);
-    CHECK(film.add({0, 0}, Color(film_max_value * 0.9f), -1.3f) == Verdict::out_of_range);
+    CHECK(film.add({0, 0}, Color(1.f, not_a_number, 1.f), 1.f) == SampleStatus::not_finite);
+    CHECK(film.add({0, 0}, Color(infinity), 1.f) == SampleStatus::not_finite);
+    CHECK(film.add({0, 0}, Color(1.f, -1e-20f, 1.f), 1.f) == SampleStatus::negative);
+    CHECK(film.add({0, 0}, Color(film_max_value), 1.f) == SampleStatus::out_of_range);
+    CHECK(film.add({0, 0}, Color(film_max_value * 0.9f), -1.3f) == SampleStatus::out_of_range);
     CHECK(film.sample_count({0, 0}) == 0);
     CHECK(developed(film) == Color());
 
-    CHECK(film.add({0, 0}, Color(std::nextafter(film_max_value, 0.f)), 1.f) == Verdict::accepted);
-    CHECK(film.add({0, 0}, Color(), 1.f) == Verdict::accepted);
-    CHECK(film.add({0, 0}, Color(8.f), -0.5f) == Verdict::accepted); // a negative lobe of the filter
+    CHECK(film.add({0, 0}, Color(std::nextafter(film_max_value, 0.f)), 1.f) == SampleStatus::accepted);
+    CHECK(film.add({0, 0}, Color(), 1.f) == SampleStatus::accepted);
+    CHECK(film.add({0, 0}, Color(8.f), -0.5f) == SampleStatus::accepted); // a negative lobe of the filter
     CHECK(film.sample_count({0, 0}) == 3);
 }
 
@@ -90,7 +90,7 @@ TEST_CASE("a film's largest samples add up to the largest count without wrapping
     static_assert(film_max_samples <= (std::uint64_t{1} << 26) && film_max_value <= 0x1p37f);
 }
 
-TEST_CASE("a film keeps a window of a larger picture", "[unit][film]")
+TEST_CASE("a film keeps a window of a larger image", "[unit][film]")
 {
     Film film({3, 2, 4, 5}, 10, 9);
     film.add({6, 6}, Color(1.f, 2.f, 3.f), 1.f);

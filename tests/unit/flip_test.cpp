@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 
 // Expected values: the authors' package, flip-evaluator 1.7 from PyPI, called as
-// evaluate(reference, test, "LDR" or "HDR", inputsRGB=False, applyMagma=False) on the same float pictures. It computes
+// evaluate(reference, test, "LDR" or "HDR", inputsRGB=False, applyMagma=False) on the same float images. It computes
 // in float; we differ by less than 3e-5 but where an edge nearly vanishes (1e-4: the square root of a rounding error).
 
 #include "compare/flip.h"
@@ -17,16 +17,16 @@ constexpr int height = 16;
 // Sixteenths of `scale`, exact in float.
 std::vector<Color> pattern(float scale, int shift)
 {
-    std::vector<Color> picture;
+    std::vector<Color> image;
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
             const auto value = [&](int c) {
                 return static_cast<float>((x * (3 + c) + y * (5 + 2 * c) + shift * (x * y % 7)) % 16) / 16.f *
                        scale;
             };
-            picture.emplace_back(value(0), value(1), value(2));
+            image.emplace_back(value(0), value(1), value(2));
         }
-    return picture;
+    return image;
 }
 
 struct Expected {

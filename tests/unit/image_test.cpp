@@ -17,7 +17,7 @@ using namespace plumb;
 
 namespace {
 
-// A picture whose values name their place, some of them outside [0, 1].
+// An image whose values name their place, some of them outside [0, 1].
 Image numbered(PixelRect data, int full_width, int full_height)
 {
     Image image(data, full_width, full_height);
@@ -91,7 +91,7 @@ TEST_CASE("EXR files keep every float, the windows and the metadata", "[unit][im
     CHECK(directory.files() == std::vector<std::string>{"a.exr"}); // nothing temporary is left
 }
 
-TEST_CASE("pictures that are packed fast have the same pixels", "[unit][image]")
+TEST_CASE("images that are packed fast have the same pixels", "[unit][image]")
 {
     const TempDirectory directory;
     const Image image = numbered({7, 3, 20, 11}, 64, 48);
@@ -101,7 +101,7 @@ TEST_CASE("pictures that are packed fast have the same pixels", "[unit][image]")
     CHECK(*find<std::string>(back.metadata, "compression") == "rle");
 }
 
-TEST_CASE("pictures may be written and read at the same time", "[unit][image]")
+TEST_CASE("images may be written and read at the same time", "[unit][image]")
 {
     const TempDirectory directory;
     const Image image = numbered({0, 0, 64, 48}, 64, 48);
@@ -121,7 +121,7 @@ TEST_CASE("pictures may be written and read at the same time", "[unit][image]")
     CHECK(after.st_ino == before.st_ino);
 }
 
-TEST_CASE("the same picture written twice gives the same bytes", "[unit][image]")
+TEST_CASE("the same image written twice gives the same bytes", "[unit][image]")
 {
     const std::string extension =
         GENERATE(as<std::string>{}, ".exr", ".png", ".jpg", ".jpeg", ".tif", ".tiff", ".hdr");
@@ -217,7 +217,7 @@ TEST_CASE("formats without windows hold the pixels that exist", "[unit][image]")
     CHECK(back.full_height() == 11);
 }
 
-TEST_CASE("grey pictures have one channel, and alpha does not touch the colours", "[unit][image]")
+TEST_CASE("grey images have one channel, and alpha does not touch the colours", "[unit][image]")
 {
     const TempDirectory directory;
     Image grey({0, 0, 3, 1}, 3, 1, {"Y"});
@@ -237,7 +237,7 @@ TEST_CASE("grey pictures have one channel, and alpha does not touch the colours"
     CHECK(read.color(1, 0) == Color(1.f));
 }
 
-TEST_CASE("pictures with many channels are read whole", "[unit][image]")
+TEST_CASE("images with many channels are read whole", "[unit][image]")
 {
     const TempDirectory directory;
     Image image({0, 0, 2, 2}, 2, 2, {"R", "G", "B", "A", "Z", "depth.x"});
@@ -321,7 +321,7 @@ TEST_CASE("a disk that is full is an error, and nothing is left of the file", "[
     CHECK(directory.files().empty());
 }
 
-TEST_CASE("broken pictures are errors on one line that name the file", "[unit][image]")
+TEST_CASE("broken images are errors on one line that name the file", "[unit][image]")
 {
     const TempDirectory directory;
     const auto check = [&](const std::string& name) {
@@ -354,7 +354,7 @@ TEST_CASE("broken pictures are errors on one line that name the file", "[unit][i
     }
 }
 
-TEST_CASE("pictures that cannot be are errors", "[unit][image]")
+TEST_CASE("images that cannot be are errors", "[unit][image]")
 {
     CHECK_THROWS_WITH(Image(0, 5), ContainsSubstring("0 x 5 pixels"));
     CHECK_THROWS_WITH(Image(5, -1), ContainsSubstring("5 x -1 pixels"));
@@ -403,7 +403,7 @@ std::string tiff_at(std::uint32_t column, std::uint32_t width)
 } // namespace
 
 // OpenImageIO says of the last two that they were read, and they were not.
-TEST_CASE("pictures far from any corner are read right or refused", "[unit][image]")
+TEST_CASE("images far from any corner are read right or refused", "[unit][image]")
 {
     const TempDirectory directory;
     const auto read = [&](std::uint32_t column) {

@@ -39,7 +39,7 @@ struct Sample {
     std::uint64_t index = 0;
 };
 
-Verdict add(Film& film, Vec2i pixel, const Sample& sample)
+SampleStatus add(Film& film, Vec2i pixel, const Sample& sample)
 {
     // Their variances are of the same values.
     std::vector<float> values = sample.values;
@@ -113,7 +113,7 @@ TEST_CASE("layers do not depend on the order of samples, nor on how they are par
     std::vector<Sample> samples;
     for (std::uint64_t i = 0; i < 1000; ++i) samples.push_back(random_sample(random, i));
     Film forward(one_pixel, 1, 1, some_layers);
-    for (const Sample& sample : samples) REQUIRE(add(forward, {0, 0}, sample) == Verdict::accepted);
+    for (const Sample& sample : samples) REQUIRE(add(forward, {0, 0}, sample) == SampleStatus::accepted);
     Film even(one_pixel, 1, 1, some_layers);
     Film odd(one_pixel, 1, 1, some_layers);
     std::reverse(samples.begin(), samples.end());
@@ -186,14 +186,14 @@ TEST_CASE("a value that a layer cannot hold changes nothing else", "[unit][layer
     Film film(one_pixel, 1, 1, some_layers);
     add(film, {0, 0}, {Color(1.f), 1.f, {0.5f, 0.5f, 0.5f, 3.f, 4.f, 5.f}, 2, 7, 1});
     CHECK(add(film, {0, 0}, {Color(3.f), 1.f, {0.25f, 0.5f, 0.5f, 1.f, bad, 1.f}, 1, 7, 0}) ==
-          Verdict::accepted);
+          SampleStatus::accepted);
     CHECK(value(film, {0, 0}, "R") == 2.f);
     CHECK(value(film, {0, 0}, "albedo.R") == 0.375f);
     CHECK(value(film, {0, 0}, "position.X") == 3.f);
     CHECK(value(film, {0, 0}, "object.id") == 1.f);
     // What beauty leaves out, layers leave out.
     CHECK(add(film, {0, 0}, {Color(-1.f), 1.f, {1.f, 1.f, 1.f, 1.f, 1.f, 1.f}, 1, 7, 2}) ==
-          Verdict::negative);
+          SampleStatus::negative);
     CHECK(value(film, {0, 0}, "albedo.R") == 0.375f);
 }
 

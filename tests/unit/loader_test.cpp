@@ -144,7 +144,7 @@ TEST_CASE("unknown parameters are warnings if asked for", "[unit][loader]")
         ContainsSubstring("error: 'x' is not a number"));
 }
 
-TEST_CASE("what nobody reads is ignored; with a warning if the picture could be meant to differ",
+TEST_CASE("what nobody reads is ignored; with a warning if the image could be meant to differ",
           "[unit][loader]")
 {
     const LoadedScene silent = load_text(
@@ -303,7 +303,7 @@ TEST_CASE("many thousand mistakes take little time, memory and output", "[unit][
     }
 }
 
-TEST_CASE("a picture must fit into memory", "[unit][loader]")
+TEST_CASE("an image must fit into memory", "[unit][loader]")
 {
     const std::string xml =
         "<scene dialect='plumb'><integrator type='normals'/><camera type='perspective'>"

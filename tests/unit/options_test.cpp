@@ -37,7 +37,7 @@ OptionTable<Options> table()
         join<Options>({outputs_option<Options>(), json_option<Options>(), checkpoint_option<Options>(),
                        threads_option<Options>(), quiet_option<Options>(), verbose_option<Options>()});
     for (const auto& row : setting_rows<RenderSettings>())
-        all.push_back(setting_options<Options>(Topic::picture, &Options::settings, {row.name}).front());
+        all.push_back(setting_options<Options>(Topic::image, &Options::settings, {row.name}).front());
     for (const auto& row : setting_rows<CompareSettings>())
         all.push_back(setting_options<Options>(Topic::verdict, &Options::compare, {row.name}).front());
     return all;
@@ -301,7 +301,7 @@ TEST_CASE("words of a choice are checked", "[unit][options]")
     CHECK(usage_error("s.xml -D =value") == "--define must be name=value, not '=value'");
 }
 
-TEST_CASE("every setting of a picture is an option of a rendering", "[unit][options]")
+TEST_CASE("every setting of an image is an option of a rendering", "[unit][options]")
 {
     const auto has = [](std::string_view verb, std::string_view setting) {
         const auto& options = find_verb(verb)->options;

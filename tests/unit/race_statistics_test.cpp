@@ -11,25 +11,25 @@ using namespace plumb;
 
 namespace {
 
-using Picture = std::vector<double>;
+using Image = std::vector<double>;
 
-Rounds rounds_of(const std::vector<double>& seconds, const std::vector<Picture>& pictures)
+Rounds rounds_of(const std::vector<double>& seconds, const std::vector<Image>& images)
 {
-    Picture mean(pictures[0].size(), 0.0);
-    for (const Picture& picture : pictures)
+    Image mean(images[0].size(), 0.0);
+    for (const Image& image : images)
         for (std::size_t i = 0; i < mean.size(); ++i)
-            mean[i] += picture[i] / static_cast<double>(pictures.size());
+            mean[i] += image[i] / static_cast<double>(images.size());
     Rounds rounds{seconds, {}};
-    for (const Picture& picture : pictures) {
+    for (const Image& image : images) {
         MeanAndVariance squares;
-        for (std::size_t i = 0; i < mean.size(); ++i) squares.add(sqr(picture[i] - mean[i]));
+        for (std::size_t i = 0; i < mean.size(); ++i) squares.add(sqr(image[i] - mean[i]));
         rounds.deviations.push_back(squares.mean());
     }
     return rounds;
 }
 
 // Time times variance of the rounds but one.
-double cost_without(const std::vector<double>& seconds, const Picture& values, std::size_t left_out)
+double cost_without(const std::vector<double>& seconds, const Image& values, std::size_t left_out)
 {
     MeanAndVariance time, value;
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -45,7 +45,7 @@ double cost_without(const std::vector<double>& seconds, const Picture& values, s
 TEST_CASE("the efficiency and its interval are those of the jackknife, round by round", "[unit][race]")
 {
     const std::vector<double> seconds_a = {1.0, 1.5, 1.25, 3.0, 1.0}, seconds_b = {2.0, 2.5, 2.0, 4.0, 2.25};
-    const Picture a = {1.0, 2.0, 4.0, 8.0, 16.0}, b = {0.0, 3.0, 1.0, 5.0, 2.0}; // one pixel, five rounds
+    const Image a = {1.0, 2.0, 4.0, 8.0, 16.0}, b = {0.0, 3.0, 1.0, 5.0, 2.0}; // one pixel, five rounds
     const Rounds rounds_a = rounds_of(seconds_a, {{1.0}, {2.0}, {4.0}, {8.0}, {16.0}});
     const Rounds rounds_b = rounds_of(seconds_b, {{0.0}, {3.0}, {1.0}, {5.0}, {2.0}});
     CHECK(rounds_a.mean_seconds() == Approx(1.55));
@@ -70,19 +70,19 @@ TEST_CASE("95 of 100 intervals hold the efficiency", "[unit][race]")
     int held = 0;
     for (int trial = 0; trial < trials; ++trial) {
         std::vector<double> seconds[2];
-        std::vector<Picture> pictures[2];
+        std::vector<Image> images[2];
         for (int round = 0; round < count; ++round) {
             const double load = random.between(1.0, 2.0); // of the machine, in that round
             for (int i = 0; i < 2; ++i) {
                 seconds[i].push_back(load * random.between(0.9, 1.1));
-                Picture picture;
+                Image image;
                 for (int pixel = 0; pixel < pixels; ++pixel)
-                    picture.push_back((1.0 + i) * random.between(-1.0, 1.0));
-                pictures[i].push_back(picture);
+                    image.push_back((1.0 + i) * random.between(-1.0, 1.0));
+                images[i].push_back(image);
             }
         }
         const auto found =
-            efficiency_ratio(rounds_of(seconds[0], pictures[0]), rounds_of(seconds[1], pictures[1]));
+            efficiency_ratio(rounds_of(seconds[0], images[0]), rounds_of(seconds[1], images[1]));
         REQUIRE(found);
         held += found->low <= 4.0 && found->high >= 4.0; // half the spread, in the same time
     }
@@ -90,7 +90,7 @@ TEST_CASE("95 of 100 intervals hold the efficiency", "[unit][race]")
     CHECK(held <= 970);
 }
 
-TEST_CASE("pictures without noise have no efficiency", "[unit][race]")
+TEST_CASE("images without noise have no efficiency", "[unit][race]")
 {
     const Rounds noisy{{1.0, 1.0, 1.0}, {0.5, 0.25, 0.125}}, exact{{1.0, 1.0, 1.0}, {0.0, 0.0, 0.0}};
     CHECK_FALSE(efficiency_ratio(noisy, exact));

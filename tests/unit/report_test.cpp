@@ -66,7 +66,7 @@ TEST_CASE("a report has what --json promises", "[unit][json]")
     report.triangles = 12;
     report.render_seconds = 2.0;
     report.rays = {100, 50, 50};
-    report.memory = {.meshes = 1000, .acceleration = 2000, .acceleration_peak = 3000, .pictures = 40};
+    report.memory = {.meshes = 1000, .acceleration = 2000, .acceleration_peak = 3000, .images = 40};
     report.texture_bytes = 2;
     report.film_bytes = 500;
     report.peak_memory = 1048576;
@@ -122,7 +122,7 @@ TEST_CASE("a report has what --json promises", "[unit][json]")
         report.evidence.left_out.count = 3;
         report.evidence.left_out.first.pixel = {5, 6};
         report.evidence.left_out.first.index = 7;
-        report.evidence.left_out.first.verdict = Verdict::not_finite;
+        report.evidence.left_out.first.status = SampleStatus::not_finite;
         report.evidence.left_out.first.value = Color(std::numeric_limits<float>::quiet_NaN(), 1.f, infinity);
         CHECK_THAT(
             report_json(report),

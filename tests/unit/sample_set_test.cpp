@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-// Sets of samples against sets of single samples, and the parts that pictures are cut into.
+// Sets of samples against sets of single samples, and the parts that images are cut into.
 
 #include "plumb/render/sample_set.h"
 #include "support/catch.h"

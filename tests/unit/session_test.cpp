@@ -64,7 +64,7 @@ TEST_CASE("a session says what it has to say to callbacks, and goes on to the sa
 
     RenderSession whole(task);
     CHECK(whole.run() == StopReason::all_samples);
-    CHECK(compare(whole.picture(), second.picture()).identical);
+    CHECK(compare(whole.image(), second.image()).identical);
 
     RenderSettings others = few_samples();
     others.view.aovs = {"normal"};
@@ -74,14 +74,14 @@ TEST_CASE("a session says what it has to say to callbacks, and goes on to the sa
 
 TEST_CASE("what is known of an estimate decides as a header does", "[unit][session]")
 {
-    const auto picture = [] {
+    const auto image = [] {
         Image image({0, 0, 8, 8}, 8, 8, {"R", "G", "B", "variance.R", "variance.G", "variance.B"});
         for (int y = 0; y < 8; ++y)
             for (int x = 0; x < 8; ++x) std::fill_n(image.pixel(x, y), 6, 0.25f);
         return image;
     };
-    Image a = picture();
-    Image b = picture();
+    Image a = image();
+    Image b = image();
     a.pixel(3, 3)[0] = 0.5f;
     for (Image* image : {&a, &b}) image->metadata.emplace_back("plumb:samplesPerPixel", 16);
     const Comparison by_header = compare(a, b);
@@ -89,6 +89,6 @@ TEST_CASE("what is known of an estimate decides as a header does", "[unit][sessi
     const Estimate known_b{"b", std::move(b), 16.0, {}, {}};
     const Comparison by_facts = compare(known_a, known_b);
     CHECK(by_header.significance.p == by_facts.significance.p);
-    CHECK(by_header.outcome == by_facts.outcome);
-    CHECK(compare({"a", picture(), 2.0, {}, {}}, {"b", picture(), 2.0, {}, {}}).identical);
+    CHECK(by_header.verdict == by_facts.verdict);
+    CHECK(compare({"a", image(), 2.0, {}, {}}, {"b", image(), 2.0, {}, {}}).identical);
 }

@@ -42,7 +42,7 @@ RenderState noise(std::uint64_t seed, bool large, const SampleBlock& block)
         }
     }
     state.left_out.add(
-        {{4, 6}, 7, Color(std::numeric_limits<float>::quiet_NaN(), -0.f, 1.f), Verdict::negative});
+        {{4, 6}, 7, Color(std::numeric_limits<float>::quiet_NaN(), -0.f, 1.f), SampleStatus::negative});
     return state;
 }
 
@@ -98,13 +98,13 @@ TEST_CASE("a rendering comes back from disk bit for bit", "[unit][state_file]")
     CHECK(std::memcmp(&first.value, &state.left_out.first.value, sizeof first.value) == 0);
     CHECK(first.pixel == Vec2i(4, 6));
     CHECK(first.index == 7);
-    CHECK(first.verdict == Verdict::negative);
+    CHECK(first.status == SampleStatus::negative);
     CHECK(read.resolution == resolution);
     std::map<std::string, MetadataValue> expected(header.begin(), header.end());
     expected.erase("plumb:nothing"); // files keep no empty values
     CHECK(std::map<std::string, MetadataValue>(read.header.begin(), read.header.end()) == expected);
 
-    // It is a picture, too, without the channels that say nothing.
+    // It is an image, too, without the channels that say nothing.
     const Image seen = read_image(path, false);
     const auto has = [&](const std::string& name) {
         const std::vector<std::string>& names = seen.channel_names();
@@ -195,8 +195,8 @@ TEST_CASE("a damaged state file is found out", "[unit][state_file]")
     SECTION("and what is none is said to be none")
     {
         Image image(4, 4);
-        write_image(directory / "picture.exr", image);
-        CHECK(problem(directory / "picture.exr") == "it is not a checkpoint or a partial render");
+        write_image(directory / "image.exr", image);
+        CHECK(problem(directory / "image.exr") == "it is not a checkpoint or a partial render");
         CHECK(problem(directory / "none.exr") == "no such file");
         CHECK(problem(directory.path()) == "it is a directory");
     }

@@ -4,11 +4,12 @@
 
 #include "plumb/reports/suite_report.h"
 #include "plumb/suite_file/suite.h"
-#include "reports/picture_data.h"
+#include "reports/image_data.h"
 #include "support/catch.h"
 #include "support/temp_directory.h"
 
 #include <limits>
+#include <variant>
 
 using namespace plumb;
 
@@ -28,7 +29,7 @@ struct SuiteDirectory : TempDirectory {
     {
         Texts texts;
         for (const SuiteJob& job : plan(xml, definitions))
-            texts.push_back(inside(job.entry.title() + ": " + command_text(job.entry.scene, job.picture)));
+            texts.push_back(inside(job.entry.title() + ": " + command_text(job.entry.scene, job.image)));
         return texts;
     }
 
@@ -270,16 +271,26 @@ TEST_CASE("colours with a shared exponent keep their value", "[unit][suite]")
 
 TEST_CASE("the exit code of a batch is its worst verdict's", "[unit][suite]")
 {
-    const auto code = [](std::initializer_list<SuiteVerdict> verdicts) {
+    using Outcome = std::variant<JobState, Verdict>;
+    const auto code = [](std::initializer_list<Outcome> outcomes) {
         SuiteRun run;
-        for (const SuiteVerdict verdict : verdicts) run.results.emplace_back().verdict = verdict;
+        for (const Outcome& outcome : outcomes) {
+            SuiteResult& result = run.results.emplace_back();
+            if (const auto* verdict = std::get_if<Verdict>(&outcome)) {
+                result.state = JobState::compared;
+                result.verdict = *verdict;
+            } else {
+                result.state = std::get<JobState>(outcome);
+            }
+        }
         return exit_code_of(run);
     };
-    using enum SuiteVerdict;
+    using enum Verdict;
+    using enum JobState;
     CHECK(code({passes, rendered, made}) == 0);
     CHECK(code({passes, undecided, passes}) == 4);
     CHECK(code({undecided, differs, passes, not_run}) == 3);
-    CHECK(code({undecided, differs, error, passes}) == 1);
+    CHECK(code({undecided, differs, failed, passes}) == 1);
 }
 
 TEST_CASE("a suite may have ten thousand sample counts", "[unit][batch]")

@@ -68,7 +68,7 @@ Color texel(int x, int y)
            255.f;
 }
 
-Image small_picture()
+Image small_image()
 {
     Image image(3, 2);
     for (int y = 0; y < 2; ++y)
@@ -190,7 +190,7 @@ TEST_CASE("constant textures", "[unit][texture]")
 TEST_CASE("textmap reads against u and v, undecoded, with texels at whole coordinates", "[unit][texture]")
 {
     const TempDirectory directory;
-    write_image(directory / "a.png", small_picture());
+    write_image(directory / "a.png", small_image());
     const Color tint(1.f, 0.5f, 0.25f);
     const auto texture = ParamsBuilder("texture", "textmap")
                              .directory(directory.path())
@@ -215,7 +215,7 @@ TEST_CASE("textmap reads against u and v, undecoded, with texels at whole coordi
 TEST_CASE("textmap warns of the scales that the course ignores", "[unit][texture]")
 {
     const TempDirectory directory;
-    write_image(directory / "a.png", small_picture());
+    write_image(directory / "a.png", small_image());
     const auto builder =
         ParamsBuilder("texture", "textmap").directory(directory.path()).string("filename", "a.png");
     CHECK(ParamsBuilder(builder)
@@ -228,10 +228,10 @@ TEST_CASE("textmap warns of the scales that the course ignores", "[unit][texture
     CHECK_THAT(complaints[0], ContainsSubstring("warning: 'scaley' of a textmap has no effect"));
 }
 
-TEST_CASE("imagetexture_color3f shows pictures upright and decoded", "[unit][texture]")
+TEST_CASE("imagetexture_color3f shows images upright and decoded", "[unit][texture]")
 {
     const TempDirectory directory;
-    write_image(directory / "a.png", small_picture());
+    write_image(directory / "a.png", small_image());
     const bool raw = GENERATE(false, true);
     const auto texture = ParamsBuilder("texture", "imagetexture_color3f")
                              .directory(directory.path())
@@ -331,7 +331,7 @@ TEST_CASE("bitmap has the wrap modes and filters of Mitsuba 3", "[unit][texture]
 TEST_CASE("bitmap stands upright or on its head, and keeps 8 bits", "[unit][texture]")
 {
     const TempDirectory directory;
-    write_image(directory / "a.png", small_picture());
+    write_image(directory / "a.png", small_image());
     const auto builder =
         ParamsBuilder("texture", "bitmap").directory(directory.path()).string("filename", "a.png");
     const auto upright = ParamsBuilder(builder).build<BitmapTexture, Texture>();
@@ -354,7 +354,7 @@ TEST_CASE("bitmap stands upright or on its head, and keeps 8 bits", "[unit][text
 TEST_CASE("slopes of image textures are those of their numbers", "[unit][texture]")
 {
     const TempDirectory directory;
-    write_image(directory / "a.png", small_picture());
+    write_image(directory / "a.png", small_image());
     const Transform to_uv =
         Transform::translate({0.3, 0.1, 0}) * Transform::rotate({0, 0, 1}, 30) * *Transform::scale({2, 3, 1});
     std::vector<std::unique_ptr<Texture>> textures;

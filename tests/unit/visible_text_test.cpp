@@ -72,14 +72,14 @@ SuiteRun run_with(const std::string& name)
     SuiteRun run;
     run.suite = name + ".xml";
     run.directory = name;
-    for (const SuiteVerdict verdict : {SuiteVerdict::error, SuiteVerdict::rendered, SuiteVerdict::not_run}) {
+    for (const JobState state : {JobState::failed, JobState::rendered, JobState::not_run}) {
         SuiteResult result;
         result.title = result.scene = result.reference = name;
         result.command = "renderer " + shell_quote(name);
         result.problem = "error: there is no '" + visible_text(name) + "'\nof any kind";
         result.warnings = {name};
         result.biases = name;
-        result.verdict = verdict;
+        result.state = state;
         run.results.push_back(result);
     }
     return run;
@@ -152,8 +152,8 @@ TEST_CASE("reports are well-formed for any name, and steer nothing", "[unit][bat
         CHECK(is_harmless(suite_json(run)));
         CHECK(is_harmless(suite_markdown(run)));
         const std::string markdown = suite_markdown(run);
-        CHECK(std::count(markdown.begin(), markdown.end(), '\n') == 9); // one line a picture
-        CHECK(is_harmless(suite_html(run, SuitePictures(1))));
+        CHECK(std::count(markdown.begin(), markdown.end(), '\n') == 9); // one line an image
+        CHECK(is_harmless(suite_html(run, ShownImages(1))));
         for (const SuiteResult& result : run.results) {
             const std::string line = result_line(result, 10);
             CHECK(is_harmless(line));

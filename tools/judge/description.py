@@ -3,7 +3,7 @@
 
 A description belongs to no renderer: plumb_xml.py writes it as a scene file, mitsuba_scene.py as a Mitsuba 3
 dictionary, and quadrature.py integrates it. Conventions: y is up, angles are in degrees, colours are linear RGB, a
-transform is a list of steps in the order of their application, rows of a picture run from the top down.
+transform is a list of steps in the order of their application, rows of an image run from the top down.
 """
 
 from dataclasses import dataclass, field
@@ -27,7 +27,7 @@ class Checkerboard:
 
 
 @dataclass
-class Picture:
+class Image:
     """rows[0] is the top row; bilinear between pixels' middles, repeated; (0, 0) is the lower left corner."""
 
     name: str
@@ -67,10 +67,10 @@ class Shape:
 @dataclass
 class Light:
     kind: str  # "point", "directional", "environment"
-    color: tuple = (1, 1, 1)  # intensity, irradiance, factor of the picture
+    color: tuple = (1, 1, 1)  # intensity, irradiance, factor of the image
     position: tuple = None
     towards: tuple = None  # from the scene to a directional light
-    picture: Picture = None  # equirectangular
+    image: Image = None  # equirectangular
     as_power: bool = False  # color is the power of a point light
 
 

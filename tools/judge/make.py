@@ -26,7 +26,7 @@ VARIANT = "llvm_ad_rgb"
 CHANNELS = ["R", "G", "B", "variance.R", "variance.G", "variance.B"]
 
 
-def write_picture(path, data, names, attributes):
+def write_image(path, data, names, attributes):
     data = np.ascontiguousarray(data, dtype=np.float32)
     bitmap = mi.Bitmap(data, mi.Bitmap.PixelFormat.MultiChannel if len(names) > 3 else mi.Bitmap.PixelFormat.RGB, names)
     for name, value in attributes.items():
@@ -39,8 +39,8 @@ def write_scene(scene):
 
     for mesh in plumb_xml.meshes(scene):
         (SCENE_DIRECTORY / (mesh.name + ".obj")).write_text(plumb_xml.mesh_text(mesh))
-    for picture in plumb_xml.pictures(scene):
-        write_picture(SCENE_DIRECTORY / (picture.name + ".exr"), picture.rows, ["R", "G", "B"], {})
+    for image in plumb_xml.images(scene):
+        write_image(SCENE_DIRECTORY / (image.name + ".exr"), image.rows, ["R", "G", "B"], {})
     (SCENE_DIRECTORY / (scene.name + ".xml")).write_text(plumb_xml.scene_text(scene))
 
 
@@ -95,7 +95,7 @@ def main():
         mean, variance, attributes = judge(scene, options.replicates, options.samples)
         attributes |= {"judge:scene": scene.name, "judge:script": "tools/judge/make.py"}
         path = REFERENCE_DIRECTORY / (scene.name + ".exr")
-        write_picture(path, np.concatenate([mean, variance], axis=2), CHANNELS, attributes)
+        write_image(path, np.concatenate([mean, variance], axis=2), CHANNELS, attributes)
         error = np.sqrt(variance.mean()) / mean.mean()
         print(f"{scene.name}: mean {mean.mean():.5f}, RMSE {100 * error:.3f} %, {time.time() - start:.1f} s, "
               f"{os.path.getsize(path)} bytes", flush=True)  # fmt: skip

@@ -5,7 +5,7 @@ import mitsuba as mi
 import numpy as np
 
 import mitsuba_models
-from description import Checkerboard, Color, Picture
+from description import Checkerboard, Color, Image
 
 Transform = mi.ScalarTransform4f
 
@@ -49,7 +49,7 @@ def texture(value):
             "color1": ends[1],
             "to_uv": Transform().translate(offset) @ Transform().scale(scale),
         }
-    if isinstance(value, Picture):
+    if isinstance(value, Image):
         # Mitsuba's first row is at v = 0.
         data = np.array(value.rows, dtype=np.float32)[::-1].copy()
         return {
@@ -195,10 +195,10 @@ def light(description):
     if description.kind == "directional":
         towards = [-float(x) for x in description.towards]
         return {"type": "directional", "direction": towards, "irradiance": rgb(color)}
-    if description.picture is None:
+    if description.image is None:
         return {"type": "constant", "radiance": rgb(color)}
     # Ours has u = atan2(z, x) / 2 pi, Mitsuba's u = atan2(x, -z) / 2 pi: a quarter turn about y.
-    rows = environment_rows(description.picture.rows) * np.array(color, dtype=np.float32)
+    rows = environment_rows(description.image.rows) * np.array(color, dtype=np.float32)
     turn = np.array([[0, 0, 1, 0], [0, 1, 0, 0], [-1, 0, 0, 0], [0, 0, 0, 1]], dtype=float)
     return {
         "type": "envmap",

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""What the scenes of scenes.py are made of: meshes, pictures, materials, lamps."""
+"""What the scenes of scenes.py are made of: meshes, images, materials, lamps."""
 
 import math
 
-from description import Bsdf, Light, Mesh, Picture, Shape
+from description import Bsdf, Light, Mesh, Image, Shape
 
 
 def octahedron():
@@ -52,7 +52,7 @@ def panel():
     return Mesh("panel", p, [(0, 1, 2), (0, 2, 4), (0, 4, 3)])
 
 
-PAINTING = Picture(
+PAINTING = Image(
     "painting",
     [
         [(0.9, 0.1, 0.1), (0.1, 0.7, 0.2), (0.2, 0.2, 0.9), (0.8, 0.8, 0.1)],
@@ -75,7 +75,7 @@ def sky_rows():
     return rows
 
 
-SKY = Picture("sky", sky_rows())
+SKY = Image("sky", sky_rows())
 
 
 def diffuse(*color):
@@ -161,4 +161,4 @@ def sky(*radiance):
 
 
 def painted_sky(factor=(1.0, 1.0, 1.0)):
-    return Light("environment", factor, picture=SKY)
+    return Light("environment", factor, image=SKY)

@@ -3,7 +3,7 @@
 
 from xml.sax.saxutils import quoteattr
 
-from description import Checkerboard, Color, Picture
+from description import Checkerboard, Color, Image
 
 
 def numbers(value):
@@ -58,7 +58,7 @@ def write_parameter(out, name, value):
         out.leaf("vector", name="scale", value=numbers(value.scale))
         out.leaf("point", name="delta", value=numbers(value.delta))
         out.close("texture")
-    elif isinstance(value, Picture):
+    elif isinstance(value, Image):
         out.open("texture", type="imagetexture_color3f", name=name)
         out.leaf("string", name="filepath", value=value.name + ".exr")
         out.close("texture")
@@ -107,8 +107,8 @@ def write_light(out, light):
         out.leaf("point", name="position", value=numbers(light.position))
     if light.kind == "directional":
         out.leaf("vector", name="direction", value=numbers(tuple(-x for x in light.towards)))
-    if light.picture:
-        out.leaf("string", name="filename", value=light.picture.name + ".exr")
+    if light.image:
+        out.leaf("string", name="filename", value=light.image.name + ".exr")
     out.leaf("color", name="power" if light.as_power else "radiance", value=numbers(light.color))
     out.close("emitter")
 
@@ -169,9 +169,9 @@ def meshes(scene):
     return [shape.mesh for shape in scene.shapes if shape.mesh]
 
 
-def pictures(scene):
-    found = [light.picture for light in scene.lights if light.picture]
+def images(scene):
+    found = [light.image for light in scene.lights if light.image]
     for shape in scene.shapes:
         values = list(shape.bsdf.parameters.values()) + [shape.radiance]
-        found += [value for value in values if isinstance(value, Picture)]
+        found += [value for value in values if isinstance(value, Image)]
     return found

@@ -190,10 +190,10 @@ def filter_nodes(rfilter, order):
 
 
 def seen(scene, x, y, order):
-    """The radiance along rays. The lamp must not be in the picture."""
+    """The radiance along rays. The lamp must not be in the image."""
     origin = np.array(scene.camera.origin, dtype=float)
     direction = camera_rays(scene.camera, x, y)
-    assert np.all(direction[..., 1] < 0.0), "the plane must fill the picture"
+    assert np.all(direction[..., 1] < 0.0), "the plane must fill the image"
     points = origin + direction * (-origin[1] / direction[..., 1])[..., None]
     plane, *lamps = scene.shapes
     assert np.all(np.abs(points[..., 0]) < plane.width / 2) and np.all(np.abs(points[..., 2]) < plane.height / 2)
@@ -207,7 +207,7 @@ def seen(scene, x, y, order):
     return result
 
 
-def picture(scene, pixel_order, lamp_order):
+def image(scene, pixel_order, lamp_order):
     offsets, weights = filter_nodes(scene.filter, pixel_order)
     rows, columns = np.meshgrid(
         np.arange(scene.camera.height) + 0.5, np.arange(scene.camera.width) + 0.5, indexing="ij"
@@ -220,8 +220,8 @@ def picture(scene, pixel_order, lamp_order):
 
 
 def render(scene):
-    """The picture, and the square of an estimate of its error: what a coarser rule differs by."""
+    """The image, and the square of an estimate of its error: what a coarser rule differs by."""
     pixel_order = 3 if len(scene.shapes) > 1 else 8
-    fine = picture(scene, pixel_order, 24)
-    coarse = picture(scene, pixel_order - 1, 18)
+    fine = image(scene, pixel_order, 24)
+    coarse = image(scene, pixel_order - 1, 18)
     return fine, (fine - coarse) ** 2

@@ -5,7 +5,7 @@ import numpy as np
 
 TEXT = """# What others say
 
-Pictures that Plumb has no part in: most are rendered by [Mitsuba 3](https://www.mitsuba-renderer.org), the others are
+Images that Plumb has no part in: most are rendered by [Mitsuba 3](https://www.mitsuba-renderer.org), the others are
 integrated numerically in double precision. The test `plumb_tests "[independent]"` holds Plumb to them.
 
 Each scene is described once, in [tools/judge/scenes.py](../../tools/judge/scenes.py); from that description come
@@ -13,7 +13,7 @@ Plumb's scene file in [tests/scenes/independent/](../../tests/scenes/independent
 integral. The channels `variance.R`, `variance.G`, `variance.B` are the variance of each pixel's mean: estimated from
 {replicates} renders with seeds of their own (`judge:replicates` in the header), or, of a quadrature, the square of
 what a coarser rule differs by. Where a filter is wider than a pixel, neighbouring pixels of Mitsuba share samples;
-their variances are scaled up so that their sum is that of the whole picture.
+their variances are scaled up so that their sum is that of the whole image.
 
 ## Making them again
 
@@ -37,8 +37,8 @@ None of these is a bug of Plumb; the translation or the choice of judge takes th
 - *Rough glass*: with `sample_visible=false`, Mitsuba {version}'s `roughdielectric` takes normals from a rougher surface,
   and the weights of its samples are up to 2 % off the integral of its own `eval()`. So its `eval()` is the judge,
   sampled by a plugin in Python.
-- *Environment pictures*: Mitsuba's first and last row lie at the poles, Plumb's half a row away from them. Mitsuba gets
-  a picture with a row between each two, which interpolates to the same light. Its u runs from another axis.
+- *Environment images*: Mitsuba's first and last row lie at the poles, Plumb's half a row away from them. Mitsuba gets
+  an image with a row between each two, which interpolates to the same light. Its u runs from another axis.
 - *Checkerboards of numbers*: Mitsuba {version} begins with `color1` where a texture is asked for a number, with
   `color0` where it is asked for a colour. The translation swaps them.
 - *Rotations*: Mitsuba takes the axis for a unit vector without saying so; the translation makes it one.

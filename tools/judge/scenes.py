@@ -25,14 +25,14 @@ add("diffuse-point-power", "Point light given by its power", [floor(), gem(RED)]
     [Light("point", (200.0, 300.0, 250.0), position=(-1.0, 3.0, 2.0), as_power=True)])
 add("diffuse-mesh-sun", "Diffuse mesh, directional light", [floor(), gem(RED)], [sun()])
 add("diffuse-sphere-sky", "Diffuse sphere under a uniform sky", [floor(), ball(RED)], [sky(0.6, 0.8, 1.0)])
-add("diffuse-mesh-picture", "Diffuse mesh under a painted sky", [floor(), gem(RED)], [painted_sky((1.0, 0.9, 0.8))])
+add("diffuse-mesh-image", "Diffuse mesh under a painted sky", [floor(), gem(RED)], [painted_sky((1.0, 0.9, 0.8))])
 
 # --- Smooth mirrors and glass -------------------------------------------------------------------------------------
 
-add("mirror-sphere-picture", "Mirror ball under a painted sky: its lookup", [floor(), ball(MIRROR)], [painted_sky()])
+add("mirror-sphere-image", "Mirror ball under a painted sky: its lookup", [floor(), ball(MIRROR)], [painted_sky()])
 add("mirror-rectangle-lamp", "Mirror board, rectangle lamp", [floor(), board(MIRROR), rectangle_lamp()])
 add("mirror-mesh-sphere", "Mirror mesh, sphere lamp", [floor(), gem(MIRROR), sphere_lamp()])
-add("glass-sphere-picture", "Glass ball under a painted sky", [floor(), ball(dielectric())], [painted_sky()],
+add("glass-sphere-image", "Glass ball under a painted sky", [floor(), ball(dielectric())], [painted_sky()],
     max_depth=8)
 add("glass-sphere-lamp", "Glass ball and a large lamp: caustic",
     [floor(), ball(dielectric(1.7)), rectangle_lamp((3.0, 3.0, 3.0))], [sky(0.2, 0.2, 0.2)])
@@ -63,7 +63,7 @@ add("metal-sphere-rectangle", "Rough metal 0.1", [floor(), ball(metal(0.1)), rec
 add("metal-mesh-sphere", "Rough metal 0.3", [floor(), gem(metal(0.3)), sphere_lamp()])
 add("metal-rectangle-mesh", "Rough metal 0.2", [floor(), board(metal(0.2)), mesh_lamp()])
 add("metal-sphere-point", "Rough metal 0.5", [floor(), ball(metal(0.5))], [point_light()])
-add("metal-sphere-picture", "Rough metal 1.0", [floor(), ball(metal(1.0))], [painted_sky()])
+add("metal-sphere-image", "Rough metal 1.0", [floor(), ball(metal(1.0))], [painted_sky()])
 add("metal-floor-sun", "Rough metal 0.4 floor", [floor(metal(0.4)), gem(RED)], [sun((0.5, 1.0, -1.0))])
 
 add("frosted-sphere-sky", "Rough glass 0.1", [floor(), ball(frosted(0.1))], [painted_sky()], max_depth=6)
@@ -86,7 +86,7 @@ for name, side in (("frosted-backlit", 1.0), ("frosted-backlit-inside", -1.0)):
 GOLD = (1.0, 0.71, 0.29)
 PLUGIN = "Mitsuba, plugin"
 add("schlick-sphere-rectangle", "Metal 0.25 after Schlick", [floor(), ball(metal(0.25, GOLD)), rectangle_lamp()], judge=PLUGIN)
-add("schlick-mesh-picture", "Metal 0.4 after Schlick", [floor(), gem(metal(0.4, (0.1, 0.3, 0.6)))], [painted_sky()], judge=PLUGIN)
+add("schlick-mesh-image", "Metal 0.4 after Schlick", [floor(), gem(metal(0.4, (0.1, 0.3, 0.6)))], [painted_sky()], judge=PLUGIN)
 add("schlick-floor-point", "Metal 0.5 after Schlick", [floor(metal(0.5, GOLD)), ball(RED)], [point_light()], judge=PLUGIN)
 add("substrate-sphere-rectangle", "Substrate 0.2", [floor(), ball(substrate(0.2, (0.5, 0.2, 0.1))), rectangle_lamp()], judge=PLUGIN)
 add("substrate-mesh-sphere", "Substrate 0.4, index 1.9", [floor(), gem(substrate(0.4, (0.2, 0.2, 0.7), 1.9)), sphere_lamp()],
@@ -94,7 +94,7 @@ add("substrate-mesh-sphere", "Substrate 0.4, index 1.9", [floor(), gem(substrate
 add("substrate-floor-sky", "Substrate 0.6", [floor(substrate(0.6, (0.6, 0.5, 0.4))), ball(RED)], [sky(1.0, 0.9, 0.8)], judge=PLUGIN)
 add("phong-sphere-point", "Phong 20", [floor(), ball(phong((0.3, 0.1, 0.1), (0.4, 0.4, 0.4), 20))], [point_light()], judge=PLUGIN)
 add("phong-mesh-lamp", "Phong 8", [floor(), gem(phong((0.1, 0.2, 0.1), (0.6, 0.5, 0.4), 8)), mesh_lamp()], judge=PLUGIN)
-add("phong-board-picture", "Phong 15, coefficients above 1 are scaled", [floor(), board(phong((0.5, 0.4, 0.3), (0.8, 0.8, 0.8), 15))],
+add("phong-board-image", "Phong 15, coefficients above 1 are scaled", [floor(), board(phong((0.5, 0.4, 0.3), (0.8, 0.8, 0.8), 15))],
     [painted_sky()], judge=PLUGIN)
 
 # --- Lights together ----------------------------------------------------------------------------------------------
@@ -118,8 +118,8 @@ CHECKS = Checkerboard((0.9, 0.8, 0.7), (0.1, 0.2, 0.3), (0.125, 0.25), (0.4, 0.4
 add("texture-checkerboard", "Checkerboard on a rectangle", [floor(diffuse(CHECKS)), ball(RED)], [sky(1.0, 1.0, 1.0)])
 add("texture-mesh", "Checkerboard on a mesh with its own coordinates",
     [floor(), Shape("mesh", diffuse(CHECKS), mesh=sheet())], [point_light()])
-add("texture-picture", "Picture on a rectangle", [floor(), board(diffuse(PAINTING)), rectangle_lamp()])
-add("texture-picture-mesh", "Picture on a mesh, repeated", [floor(), Shape("mesh", diffuse(PAINTING), mesh=sheet())],
+add("texture-image", "Image on a rectangle", [floor(), board(diffuse(PAINTING)), rectangle_lamp()])
+add("texture-image-mesh", "Image on a mesh, repeated", [floor(), Shape("mesh", diffuse(PAINTING), mesh=sheet())],
     [sun((0.2, 1.0, 2.0))])
 add("texture-roughness", "Metal with two roughnesses", [floor(), board(metal(Checkerboard(0.1, 0.6, (0.25, 0.25)))), mesh_lamp()])
 
@@ -210,7 +210,7 @@ add("room-white", "Room of albedo 0.9: long paths, roulette",
      Shape("sphere", GREY, center=(0.0, 1.5, 0.0), radius=0.4, radiance=(1.0, 1.0, 1.0))],
     camera=Camera(origin=(0.8, 0.7, 1.4), target=(-0.3, 1.4, -0.5), fov=70.0), max_depth=-1)
 
-# --- Models that Mitsuba has not: direct light on a board that fills the picture, by quadrature -------------------
+# --- Models that Mitsuba has not: direct light on a board that fills the image, by quadrature -------------------
 
 ABOVE = Camera(origin=(0.5, 2.0, 2.2), target=(0.0, 0.0, 0.0), fov=35.0)
 LOW = Camera(origin=(0.0, 0.7, 3.0), target=(0.0, 0.0, 0.2), fov=25.0)

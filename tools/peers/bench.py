@@ -19,8 +19,8 @@ import measure  # noqa: E402
 import renderers  # noqa: E402
 import report  # noqa: E402
 
-# What fills about 35 minutes on two cores, and less than three. A picture of the race takes `shortest` seconds, doubled for
-# each of the `doublings`; a picture that converges is the mean of `replicates`, each of `longer` times as many samples.
+# What fills about 35 minutes on two cores, and less than three. An image of the race takes `shortest` seconds, doubled for
+# each of the `doublings`; an image that converges is the mean of `replicates`, each of `longer` times as many samples.
 FULL = {"width": 256, "height": 192, "shortest": 0.25, "rounds": 3, "doublings": 4, "replicates": 16, "longer": 4, "loads": 3}
 QUICK = {"width": 96, "height": 72, "shortest": 0.05, "rounds": 1, "doublings": 2, "replicates": 16, "longer": 2, "loads": 1}
 

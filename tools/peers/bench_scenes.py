@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import meshes
-from description import Camera, Light, Mesh, Picture, Scene, Shape
+from description import Camera, Light, Mesh, Image, Scene, Shape
 from objects import MIRROR, cube, dielectric, diffuse, metal
 
 ROOT = Path(__file__).resolve().parent.parent.parent
@@ -96,7 +96,7 @@ def wood():
             light = 0.6 + 0.4 * (ring - math.floor(ring))
             row.append(tuple(round(light * c, 4) for c in (0.55, 0.33, 0.17)))
         rows.append(row)
-    return Picture("wood", rows)
+    return Image("wood", rows)
 
 
 def table(camera, quick):
@@ -136,7 +136,7 @@ def sky():
             base = (0.35 + 0.4 * math.exp(-3 * elevation), 0.5 + 0.3 * math.exp(-3 * elevation), 0.9)
             row.append(tuple(round(b + glow * g, 4) for b, g in zip(base, (1.0, 0.85, 0.6))))
         rows.append(row)
-    return Picture("sky", rows)
+    return Image("sky", rows)
 
 
 def bricks():
@@ -149,7 +149,7 @@ def bricks():
             tone = 0.8 + 0.2 * math.sin(12.9898 * ((x + 8 * (course % 2)) // 16) + 78.233 * course)
             row.append((0.7, 0.68, 0.62) if joint else tuple(round(tone * c, 4) for c in (0.62, 0.35, 0.25)))
         rows.append(row)
-    return Picture("bricks", rows)
+    return Image("bricks", rows)
 
 
 def room(camera, quick):
@@ -170,7 +170,7 @@ def room(camera, quick):
         sphere(diffuse(0.3, 0.45, 0.6), meshes.ball("ball-fine", 128), 0.45, (-0.6, 0.45, -0.9)),
     ]
     view = camera(origin=(1.2, 1.6, 1.85), target=(-0.5, 1.2, -1.5), fov=75.0)
-    lights = [Light("environment", (1.0, 1.0, 1.0), picture=sky())]
+    lights = [Light("environment", (1.0, 1.0, 1.0), image=sky())]
     return BenchScene(Scene("room", shapes, lights, camera=view, what="Textured room, environment map through a window"))
 
 

@@ -9,8 +9,8 @@ import numpy as np
 import OpenEXR
 
 import geometry
-import pictures
-from description import Picture
+import images
+from description import Image
 from worker import Rendered
 
 # Blender's z is up: (x, y, z) becomes (x, -z, y).
@@ -49,7 +49,7 @@ class Materials:
 
     def find(self, shape):
         values = shape.bsdf.parameters.values()
-        key = repr((shape.bsdf.type, [v.name if isinstance(v, Picture) else v for v in values], shape.radiance))
+        key = repr((shape.bsdf.type, [v.name if isinstance(v, Image) else v for v in values], shape.radiance))
         if key not in self.made:
             self.made[key] = self.make(shape)
         return self.made[key]
@@ -82,7 +82,7 @@ class Materials:
         if bsdf.type == "diffuse":
             node = nodes.new("ShaderNodeBsdfDiffuse")
             albedo = p["albedo"]
-            if isinstance(albedo, Picture):
+            if isinstance(albedo, Image):
                 texture = nodes.new("ShaderNodeTexImage")
                 texture.image = load_image(self.directory, albedo)
                 links.new(texture.outputs["Color"], node.inputs["Color"])
@@ -102,8 +102,8 @@ class Materials:
         return node
 
 
-def load_image(directory, picture):
-    image = bpy.data.images.load(str(directory / (picture.name + ".exr")), check_existing=True)
+def load_image(directory, image):
+    image = bpy.data.images.load(str(directory / (image.name + ".exr")), check_existing=True)
     image.colorspace_settings.name = "Non-Color"
     return image
 
@@ -183,7 +183,7 @@ class Peer:
             turn = nodes.new("ShaderNodeMapping")
             turn.inputs["Rotation"].default_value = (0.0, 0.0, math.pi)
             texture = nodes.new("ShaderNodeTexEnvironment")
-            texture.image = load_image(directory, light.picture)
+            texture.image = load_image(directory, light.image)
             links.new(nodes.new("ShaderNodeTexCoord").outputs["Generated"], turn.inputs["Vector"])
             links.new(turn.outputs["Vector"], texture.inputs["Vector"])
             links.new(texture.outputs["Color"], background.inputs["Color"])
@@ -205,7 +205,7 @@ class Peer:
         self.bpy_scene.camera = placed
 
     def render(self, spp, seed):
-        """Blender hands the scene to Cycles anew for each picture, which is no part of the seconds."""
+        """Blender hands the scene to Cycles anew for each image, which is no part of the seconds."""
         self.bpy_scene.cycles.samples = spp
         self.bpy_scene.cycles.seed = seed
         bpy.ops.render.render()
@@ -213,4 +213,4 @@ class Peer:
         # To the hundredth: "00:03.28". Asking Blender to call us at each stage may end in a deadlock.
         parts = OpenEXR.File(str(self.file)).header()["cycles.ViewLayer.render_time"].split(":")
         seconds = sum(float(part) * 60**i for i, part in enumerate(reversed(parts)))
-        return Rendered(lambda: pictures.read(self.file), max(seconds, 0.005))
+        return Rendered(lambda: images.read(self.file), max(seconds, 0.005))

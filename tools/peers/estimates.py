@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Errors of pictures, and what time a renderer would need for an error.
+"""Errors of images, and what time a renderer would need for an error.
 
 MSE: the mean squared difference to the reference over pixels and channels. relMSE: the same over (reference^2 + 0.01),
 without the thousandth of pixels where it is largest, as a few fireflies may outweigh all else. The reference's own
@@ -29,8 +29,8 @@ def combine(converged):
     return mean, sum(w * w * v for w, (_, v) in zip(weights, converged))
 
 
-def errors(picture, reference, variance):
-    squared = (picture - reference) ** 2 - variance
+def errors(image, reference, variance):
+    squared = (image - reference) ** 2 - variance
     relative = np.sort((squared / (reference**2 + OFFSET)).mean(axis=2).ravel())
     kept = relative[: len(relative) - int(LEFT_OUT * len(relative))]
     return {"mse": float(squared.mean()), "relmse": float(kept.mean())}

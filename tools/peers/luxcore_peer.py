@@ -7,7 +7,7 @@ import numpy as np
 import pyluxcore
 
 import geometry
-from description import Picture
+from description import Image
 from worker import Rendered
 
 NO_LIMIT = 1024
@@ -38,9 +38,9 @@ def properties(values):
     return result
 
 
-def image(name, directory, picture):
-    """A picture's file, as it is: no gamma."""
-    return {f"{name}.file": str(directory / (picture.name + ".exr")), f"{name}.gamma": 1.0}
+def image(name, directory, image):
+    """An image's file, as it is: no gamma."""
+    return {f"{name}.file": str(directory / (image.name + ".exr")), f"{name}.gamma": 1.0}
 
 
 def material(name, shape, directory):
@@ -53,7 +53,7 @@ def material(name, shape, directory):
         }
     if shape.bsdf.type == "diffuse":
         found = {f"scene.materials.{name}.type": "matte", f"scene.materials.{name}.kd": p["albedo"]}
-        if isinstance(p["albedo"], Picture):
+        if isinstance(p["albedo"], Image):
             texture = f"scene.textures.{name}"
             found |= {f"{texture}.type": "imagemap", **image(texture, directory, p["albedo"])}
             # Row 0 is the top one.
@@ -87,8 +87,8 @@ class Peer:
             self.add_shape(f"shape{i}", shape, directory, meshes)
         for light in scene.lights:
             assert light.kind == "environment" and light.color == (1.0, 1.0, 1.0)
-            # The picture's z is up, and it is seen from the other side: y and z change places.
-            values = {"scene.lights.sky.type": "infinite", **image("scene.lights.sky", directory, light.picture)}
+            # The image's z is up, and it is seen from the other side: y and z change places.
+            values = {"scene.lights.sky.type": "infinite", **image("scene.lights.sky", directory, light.image)}
             values["scene.lights.sky.transformation"] = np.eye(4)[[0, 2, 1, 3]].ravel().tolist()
             self.scene.Parse(properties(values))
 
@@ -100,7 +100,7 @@ class Peer:
             "scene.camera.lookat.target": camera.target,
             "scene.camera.up": camera.up,
             "scene.camera.fieldofview": camera.fov,
-            # Half the width is 1. LuxCore's pictures lie one row lower than those of others: the window is moved.
+            # Half the width is 1. LuxCore's images lie one row lower than those of others: the window is moved.
             "scene.camera.screenwindow": (-1.0, 1.0, -tall - pixel, tall - pixel),
             "scene.camera.lensradius": 0.0,
             "scene.camera.clipping.hither": 1e-3,
@@ -128,7 +128,7 @@ class Peer:
         self.scene.Parse(properties(values))
 
     def render(self, spp, seed):
-        """Each picture is a session, which builds its own tree: no part of the seconds."""
+        """Each image is a session, which builds its own tree: no part of the seconds."""
         height, width = self.size
         values = RENDERING | {
             "film.width": width,

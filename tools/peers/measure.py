@@ -10,7 +10,7 @@ import bench_scenes
 import estimates
 import geometry
 import meshes
-import pictures
+import images
 import plumb_xml
 import renderers
 
@@ -26,8 +26,8 @@ def write_scene(scene, directory):
             mesh.positions, mesh.faces = made.positions, made.faces
         (directory / (mesh.name + ".obj")).write_text(plumb_xml.mesh_text(mesh))
         geometry.write_ply(directory / (mesh.name + ".ply"), mesh)
-    for picture in plumb_xml.pictures(scene):
-        pictures.write(directory / (picture.name + ".exr"), np.array(picture.rows))
+    for image in plumb_xml.images(scene):
+        images.write(directory / (image.name + ".exr"), np.array(image.rows))
     (directory / (scene.name + ".xml")).write_text(plumb_xml.scene_text(scene))
 
 
@@ -42,11 +42,11 @@ def samples_for(racer, seconds):
 
 
 def converge(racer, spp, replicates):
-    return estimates.mean_and_variance([racer.render(spp, 1000 + i).picture for i in range(replicates)])
+    return estimates.mean_and_variance([racer.render(spp, 1000 + i).image for i in range(replicates)])
 
 
 def race(racers, results, reference, options):
-    """Interleaved: in each round each renderer makes one picture of each of its numbers of samples."""
+    """Interleaved: in each round each renderer makes one image of each of its numbers of samples."""
     mean, variance = reference
     for number in range(options.rounds):
         for doubling in range(options.doublings):
@@ -54,7 +54,7 @@ def race(racers, results, reference, options):
                 spp = results[name]["base_spp"] << doubling
                 seed = 100_000 + options.doublings * number + doubling
                 run = racer.render(spp, seed)
-                entry = {"round": number, "spp": spp, "seed": seed, "seconds": run.seconds, **estimates.errors(run.picture, mean, variance)}
+                entry = {"round": number, "spp": spp, "seed": seed, "seconds": run.seconds, **estimates.errors(run.image, mean, variance)}
                 if run.rays_per_second:
                     entry["rays_per_second"] = run.rays_per_second
                 results[name]["runs"].append(entry)
@@ -78,7 +78,7 @@ def measure(name, configurations, directory, options):
             result |= {"version": racer.version, "loads": racer.loads, "base_spp": samples_for(racer, options.shortest)}
             racers[configuration.name] = racer
             converged[configuration.name] = converge(racer, options.longer * result["base_spp"], options.replicates)
-            pictures.write(directory / (configuration.name + ".exr"), *converged[configuration.name], options.replicates)
+            images.write(directory / (configuration.name + ".exr"), *converged[configuration.name], options.replicates)
         except renderers.Failed as failure:
             result["left_out"] = str(failure)
             racers.pop(configuration.name, None)
@@ -90,7 +90,7 @@ def measure(name, configurations, directory, options):
         if other == first:
             results[other]["agrees"] = {"outcome": "passes", "with": None}
             continue
-        found = pictures.compare(renderers.PLUMB, directory / (other + ".exr"), directory / (first + ".exr"), options.significance,
+        found = images.compare(renderers.PLUMB, directory / (other + ".exr"), directory / (first + ".exr"), options.significance,
                                  options.undecided_percent)  # fmt: skip
         results[other]["agrees"] = found | {"with": first}
         say(f"{name}: {other} and {first}: {found['outcome']}, p {found['p']:.3g}, "
@@ -98,7 +98,7 @@ def measure(name, configurations, directory, options):
 
     agreeing = [converged[other] for other in converged if results[other]["agrees"]["outcome"] == "passes"]
     reference = estimates.combine(agreeing)
-    pictures.write(directory / "reference.exr", reference[0])
+    images.write(directory / "reference.exr", reference[0])
     race(racers, results, reference, options)
     for racer_name, racer in racers.items():
         results[racer_name]["peak_memory"] = racer.peak_memory

@@ -33,9 +33,9 @@ class Peer:
         if spp // passes not in self.compiled:
             np.array(mi.render(self.scene, spp=spp // passes, seed=0))
             self.compiled.add(spp // passes)
-        picture = 0.0
+        image = 0.0
         start = time.perf_counter()
         for i in range(passes):
             part = mi.render(self.scene, spp=spp // passes, seed=passes * seed + i)
-            picture = picture + np.array(part, dtype=np.float64)[:, :, :3] / passes
-        return Rendered(lambda: picture, time.perf_counter() - start)
+            image = image + np.array(part, dtype=np.float64)[:, :, :3] / passes
+        return Rendered(lambda: image, time.perf_counter() - start)

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 import environment
-import pictures
+import images
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
@@ -25,7 +25,7 @@ class Failed(Exception):
 
 @dataclass
 class Run:
-    picture: object  # (height, width, 3)
+    image: object  # (height, width, 3)
     seconds: float  # of rendering alone
     rays_per_second: float = None  # where the renderer reports it
 
@@ -69,7 +69,7 @@ def configurations(peers):
 
 
 class Plumb:
-    """A process for each picture."""
+    """A process for each image."""
 
     def __init__(self, configuration, scene, directory, options):
         self.scene = directory / (scene.name + ".xml")
@@ -95,14 +95,14 @@ class Plumb:
 
     def render(self, spp, seed):
         report = self.run(spp, seed)
-        return Run(pictures.read(self.file), report["seconds"]["rendering"], report["rays_per_second"])
+        return Run(images.read(self.file), report["seconds"]["rendering"], report["rays_per_second"])
 
     def close(self):
         pass
 
 
 class Worker:
-    """A process that stays (worker.py), so that only the first picture waits for loading."""
+    """A process that stays (worker.py), so that only the first image waits for loading."""
 
     def __init__(self, configuration, scene, directory, options):
         self.directory = directory

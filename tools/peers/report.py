@@ -124,7 +124,7 @@ def summary(found):
 def text(found):
     width, height = found["size"]
     head = f"""Seconds to equal RMSE. {found["processor"]}, {found["threads"]} threads, {found["date"]}; {width}x{height} pixels, box filter, no
-limit of depth; medians of {found["rounds"]} interleaved rounds. Loading, from the start of a process to a first picture of one
+limit of depth; medians of {found["rounds"]} interleaved rounds. Loading, from the start of a process to a first image of one
 sample per pixel, is not included. Versions: {", ".join(versions(found))}.
 
 """

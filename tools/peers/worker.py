@@ -5,7 +5,7 @@
 
 SETTINGS is JSON: scene, directory (its files), width, height, quick, threads, and the renderer's own. Requests are lines
 of JSON, {"spp": N, "seed": N, "file": X.npy}; answers too: {"seconds": X, "peak_memory": N}. The first answer, with the
-renderer's version, comes when a first picture of one sample per pixel is rendered.
+renderer's version, comes when a first image of one sample per pixel is rendered.
 """
 
 import importlib
@@ -21,7 +21,7 @@ sys.path[:0] = [str(HERE), str(HERE.parent / "judge")]
 
 @dataclass
 class Rendered:
-    picture: object  # a function that fetches it
+    image: object  # a function that fetches it
     seconds: float  # of rendering alone
 
 
@@ -54,7 +54,7 @@ def main():
     for line in sys.stdin:
         request = json.loads(line)
         rendered = peer.render(request["spp"], request["seed"])
-        np.save(request["file"], np.asarray(rendered.picture(), dtype=np.float32))
+        np.save(request["file"], np.asarray(rendered.image(), dtype=np.float32))
         print(json.dumps({"seconds": rendered.seconds, "peak_memory": peak_memory()}), file=channel)
 
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Are two pictures the same but for their noise?
+// Are two images the same but for their noise?
 //
 // [1] Welch 1947, "The generalization of Student's problem when several different population variances are involved",
 //     https://doi.org/10.1093/biomet/34.1-2.28
@@ -9,12 +9,12 @@
 //     https://doi.org/10.2307/3002019
 // [3] Kish 1965, Survey Sampling: the effective size of a sample of unequal weights, (sum x)^2 / sum x^2.
 //
-// Conventions. A is the picture under test and B the reference; only relative errors and HDR-FLIP care. A picture has
-// channels R, G and B, or Y. What a picture knows of its noise are channels "variance.R", "variance.G", "variance.B"
+// Conventions. A is the image under test and B the reference; only relative errors and HDR-FLIP care. An image has
+// channels R, G and B, or Y. What an image knows of its noise are channels "variance.R", "variance.G", "variance.B"
 // (or "variance.Y"): the estimated variance of each pixel's mean, not a number where nobody knows; of others' names see
 // src/compare/channel_names.h. Where an image has none, the spread of A - B tells of its noise. "contributing"
 // counts the samples of a pixel that were not black, and the header's plumb:samplesPerPixel all of them. Where
-// plumb:inputHash and plumb:integrator are equal, both are pictures of one estimator.
+// plumb:inputHash and plumb:integrator are equal, both are images of one estimator.
 
 #include "plumb/image/image.h"
 #include "plumb/settings/compare_settings.h"
@@ -28,7 +28,7 @@
 
 namespace plumb {
 
-// Differences of the pixels that are finite in both pictures, over pixels and channels, d = a - b.
+// Differences of the pixels that are finite in both images, over pixels and channels, d = a - b.
 struct Metrics {
     double mse = 0.0;          // mean of d^2
     double rmse = 0.0;         // its square root
@@ -51,16 +51,16 @@ struct NonFinite {
     std::optional<Vec2i> first;
 };
 
-// The squared error without what the noise of both pictures adds: mean of d^2 - var(a) - var(b).
+// The squared error without what the noise of both images adds: mean of d^2 - var(a) - var(b).
 struct NoiseCorrected {
     double squared_error = 0.0; // may be negative
     double low = 0.0;           // 95 % confidence interval
     double high = 0.0;
     std::optional<double> root; // where positive
-    std::uint64_t pixels = 0;   // whose variance both pictures know
+    std::uint64_t pixels = 0;   // whose variance both images know
 };
 
-// A square of pixels, or the whole picture, in one channel.
+// A square of pixels, or the whole image, in one channel.
 struct UnitTest {
     PixelRect place;
     int channel = 0;
@@ -74,7 +74,7 @@ struct UnitTest {
 
 // The tests of all squares of one size.
 struct ScaleTest {
-    int size = 0; // of a side in pixels; 0: the whole picture
+    int size = 0; // of a side in pixels; 0: the whole image
     std::uint64_t units = 0;
     std::uint64_t tested = 0;          // where the data support it
     std::uint64_t rejected = 0;        // without the pixels that smaller squares rejected
@@ -109,19 +109,18 @@ struct Alignment {
     int tried = 0;      // changes
 };
 
-enum class Finding { not_asked, same, different, undecided };
-enum class CompareOutcome { passes, differs, undecided };
+enum class Verdict { passes, differs, undecided };
 
 struct Significance {
-    Finding finding = Finding::not_asked;
-    std::string reason;            // of not_asked and undecided
-    std::vector<ScaleTest> scales; // pixels first, the whole picture last
-    double p = 1.0;                // smallest of all
-    std::uint64_t pixels = 0;      // in the picture
-    std::uint64_t differing = 0;   // in squares that were rejected, or not finite in one picture
-    std::uint64_t untested = 0;    // in no square that was tested
-    // Had A been too bright or too dark all over by this factor, the test of the whole picture would have found it with
-    // 90 % probability. Nothing: the whole picture could not be tested.
+    std::optional<Verdict> verdict; // of the noise alone; nothing: it was not asked
+    std::string reason;             // why it was not asked, or is undecided
+    std::vector<ScaleTest> scales;  // pixels first, the whole image last
+    double p = 1.0;                 // smallest of all
+    std::uint64_t pixels = 0;       // in the image
+    std::uint64_t differing = 0;    // in squares that were rejected, or not finite in one image
+    std::uint64_t untested = 0;     // in no square that was tested
+    // Had A been too bright or too dark all over by this factor, the test of the whole image would have found it with
+    // 90 % probability. Nothing: the whole image could not be tested.
     std::optional<double> detectable_bias;
     std::optional<DifferenceNoise> difference_noise; // where an image has no error bars
     std::vector<SpreadTest> spread;                  // likewise
@@ -144,10 +143,10 @@ struct Comparison {
     Significance significance;
     std::optional<Alignment> alignment; // of images that differ
     std::vector<Threshold> exceeded;
-    CompareOutcome outcome = CompareOutcome::undecided;
+    Verdict verdict = Verdict::undecided;
 };
 
-// A picture and what is known of it besides.
+// An image and what is known of it besides.
 struct Estimate {
     std::string name;
     Image image;

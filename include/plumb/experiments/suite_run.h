@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Suites: many pictures, rendered and compared with their references.
+// Suites: many images, rendered and compared with their references.
 
 #include "plumb/compare/compare.h"
 #include "plumb/rendering/session.h"
@@ -22,7 +22,7 @@ namespace plumb {
 
 struct SuiteJob {
     SuiteEntry entry;
-    RenderSettings picture;
+    RenderSettings image;
     CompareSettings compare;
     RenderSettings reference; // to make the reference with
 };
@@ -37,36 +37,38 @@ std::vector<std::string_view> suite_settings();
 // "renderer scene.xml --spp 64", quoted for a shell, to do it again by hand.
 std::string command_text(const std::filesystem::path& scene, const RenderSettings& settings);
 
-// In the order of getting worse, but for not_run.
-enum class SuiteVerdict {
+// How far an image of a suite has come.
+enum class JobState {
     not_run,  // after a failure or a signal
     made,     // a reference
     rendered, // there is nothing to compare it with
-    passes,
-    undecided, // never agreement
-    differs,
-    error, // could not be rendered or compared
+    compared,
+    failed, // could not be rendered or compared
 };
 
 struct SuiteResult {
     std::string title; // with the sample count, where it is known
     std::string scene;
-    std::string command; // that renders the picture by hand
-    std::string picture; // .exr; empty: there is none
-    std::string screen_picture;
+    std::string command; // that renders the image by hand
+    std::string image;   // .exr; empty: there is none
+    std::string screen_image;
     std::string reference;  // empty: none
-    std::string difference; // the picture of it; empty: none
-    SuiteVerdict verdict = SuiteVerdict::not_run;
-    bool up_to_date = false;  // not rendered again
-    double seconds = 0.0;     // for all of it
-    bool interrupted = false; // before all samples were taken
-    std::string problem;      // of an error: the text of all that is wrong
+    std::string difference; // the image of it; empty: none
+    JobState state = JobState::not_run;
+    std::optional<Verdict> verdict; // where it was compared
+    bool up_to_date = false;        // not rendered again
+    double seconds = 0.0;           // for all of it
+    bool interrupted = false;       // before all samples were taken
+    std::string problem;            // of an error: the text of all that is wrong
     std::vector<std::string> warnings;
-    std::optional<double> noise; // the root mean squared error that the picture's own noise makes expect
+    std::optional<double> noise; // the root mean squared error that the image's own noise makes expect
     std::string biases;          // empty: none
     std::uint64_t left_out = 0;
     std::optional<Comparison> comparison;
     CompareSettings how;
+
+    // An error, a difference, or no decision: none of them is agreement.
+    bool is_failure() const { return state == JobState::failed || (verdict && *verdict != Verdict::passes); }
 };
 
 struct SuiteRun {
@@ -77,13 +79,14 @@ struct SuiteRun {
     bool interrupted = false;
     int signal = 0; // that interrupted it, where the caller knows
 
-    std::size_t count(SuiteVerdict verdict) const;
+    std::size_t count(JobState state) const;
+    std::size_t count(Verdict verdict) const;
 };
 
 struct SuiteOptions {
-    std::filesystem::path directory = {}; // for pictures
+    std::filesystem::path directory = {}; // for images
     std::string filter = {};              // of titles: a part of them, or a pattern; empty: all
-    bool fail_fast = false;               // ends at the first picture that does not pass
+    bool fail_fast = false;               // ends at the first image that does not pass
     bool update = false;                  // makes the references instead
     bool force = false;                   // also what is up to date
     int threads = 0;
@@ -91,17 +94,17 @@ struct SuiteOptions {
 
 // Of a job, while it is told of; null: there is none.
 struct SuiteImages {
-    const Image* picture = nullptr;
+    const Image* image = nullptr;
     const Image* reference = nullptr; // that it was compared with
 };
 using SuiteTold = std::function<void(const SuiteResult&, const SuiteImages&)>;
 
-// The jobs whose pictures or, to update, references will be made. Throws Error if there are none, SceneError if it is not
+// The jobs whose images or, to update, references will be made. Throws Error if there are none, SceneError if it is not
 // clear how a reference is made.
 std::vector<SuiteJob> chosen_jobs(const std::filesystem::path& suite, const std::vector<SuiteJob>& jobs,
                                   const SuiteOptions& options);
 
-// Does the chosen ones of all jobs of a suite, one after the other; what goes wrong with one is in its result. Pictures that
+// Does the chosen ones of all jobs of a suite, one after the other; what goes wrong with one is in its result. Images that
 // are up to date by the directory's state are compared, but not rendered. told: of each result, as soon as it is there. Throws
 // Error if the directory cannot be used.
 SuiteRun run_suite(const std::filesystem::path& suite, const std::vector<SuiteJob>& jobs,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Pictures in memory and on disk. The pixels live in an OpenImageIO ImageBuf of 32-bit floats; src/image/oiio is its
+// Images in memory and on disk. The pixels live in an OpenImageIO ImageBuf of 32-bit floats; src/image/oiio is its
 // only user.
 //
 // Conventions. Row 0 is the top row. Values are linear light unless a parameter says otherwise.
@@ -37,7 +37,7 @@ using Metadata = std::vector<std::pair<std::string, MetadataValue>>;
 
 class Image {
 public:
-    // data: the pixels that exist, inside a full picture of full_width x full_height. Throws Error if memory is short.
+    // data: the pixels that exist, inside a full image of full_width x full_height. Throws Error if memory is short.
     Image(PixelRect data, int full_width, int full_height,
           std::vector<std::string> channels = {"R", "G", "B"});
     Image(int width, int height) : Image({0, 0, width, height}, width, height) {}
@@ -51,7 +51,7 @@ public:
     int channel_count() const;
     const std::vector<std::string>& channel_names() const;
 
-    // x, y: inside the data window, in coordinates of the full picture. channel_count() floats.
+    // x, y: inside the data window, in coordinates of the full image. channel_count() floats.
     float* pixel(int x, int y);
     const float* pixel(int x, int y) const;
     Color color(int x, int y) const; // the first three channels, or the first one three times
@@ -83,13 +83,13 @@ std::optional<ByteImage> read_byte_image(const std::filesystem::path& path);
 // What the 8-bit values stand for: value / 255, through the sRGB curve if asked. The same as read_image gives.
 std::array<float, 256> byte_values(bool decode_srgb);
 
-// Channels of a rendered picture that do not say how it looks: those of layers, "variance.R" or "normal.X", and "contributing".
+// Channels of a rendered image that do not say how it looks: those of layers, "variance.R" or "normal.X", and "contributing".
 inline bool is_layer_channel(const std::string& name)
 {
     return name.find('.') != std::string::npos || name == "contributing";
 }
 
-// How a picture is compressed, without loss: fast takes a sixth of the time of small for an .exr, which gets some 12 % larger
+// How an image is compressed, without loss: fast takes a sixth of the time of small for an .exr, which gets some 12 % larger
 // where it is noisy, and much larger where it is smooth.
 enum class Packing { small, fast };
 
@@ -103,8 +103,8 @@ void write_image(const std::filesystem::path& path, const Image& image, float ex
 // Throws Error if `path` cannot be written: unknown extension, missing or read-only directory, a directory of that name.
 void check_image_path(const std::filesystem::path& path);
 
-// What pictures take: OpenImageIO and some 260 libraries below it, which take a quarter of a second to load. The first
-// picture that is made, read or written waits for them; one of these loads them meanwhile.
+// What images take: OpenImageIO and some 260 libraries below it, which take a quarter of a second to load. The first
+// image that is made, read or written waits for them; one of these loads them meanwhile.
 class ImageLibrary {
 public:
     ImageLibrary(); // begins, in a thread of its own

@@ -4,7 +4,7 @@
 // Elementary functions with the same bits on every machine.
 //
 // libm's sin, cos, exp, log, pow and their inverses differ in the last digits by version and by the CPU it
-// dispatches to, and so would the pictures. These use only IEEE additions, multiplications, divisions and square
+// dispatches to, and so would the images. These use only IEEE additions, multiplications, divisions and square
 // roots in double precision (the build forbids contraction), and round once to float at the end: the result is
 // within 0.501 units in the last place of the true value, unless an argument range below says otherwise.
 

@@ -21,7 +21,7 @@ std::optional<DialectName> dialect_from_string(std::string_view name); // nothin
 
 struct Dialect {
     DialectName name = DialectName::plumb;
-    bool mirrored_view = false;       // the picture is flopped left to right
+    bool mirrored_view = false;       // the image is flopped left to right
     bool emitters_absorb = false;     // a path that meets an emitter ends there
     bool point_takes_power = false;   // the default unit of <emitter type="point">: power, not radiance
     bool environment_flipped = false; // environment lookups run against u and v

@@ -90,7 +90,7 @@ public:
         return false;
     } // seen by rays that leave the scene, or delta at infinity
     virtual bool has_solid_angle() const { return true; }    // Measure::solid_angle is possible
-    virtual std::uint64_t memory_bytes() const { return 0; } // of its picture, if it has one
+    virtual std::uint64_t memory_bytes() const { return 0; } // of its image, if it has one
 };
 
 } // namespace plumb

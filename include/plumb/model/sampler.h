@@ -33,7 +33,7 @@ public:
     // variance is an upper bound.
     virtual bool is_independent() const { return true; }
 
-    // pixel: in coordinates of the full picture, 0 <= x, y < 65536, so that a crop draws the numbers of the whole. The
+    // pixel: in coordinates of the full image, 0 <= x, y < 65536, so that a crop draws the numbers of the whole. The
     // numbers up to the first start_vertex() are for the camera.
     virtual void start(std::uint64_t seed, Vec2i pixel, std::uint64_t sample_index) = 0;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// How sure a picture is, and what its expectation is that of.
+// How sure an image is, and what its expectation is that of.
 
 #include "plumb/model/dialect.h"
 #include "plumb/render/render.h"
@@ -12,12 +12,12 @@
 
 namespace plumb {
 
-// The root of the mean squared error of a picture, over its pixels and channels, estimated from the variance of its own
+// The root of the mean squared error of an image, over its pixels and channels, estimated from the variance of its own
 // samples: what is expected of noise, without bias. low to high: a 95 % interval.
 //
 // The mean of unbiased estimates of each pixel's variance is an unbiased estimate of the mean squared error. The interval
 // is that of a mean of as many independent numbers as there are pixels, by the central limit theorem, with the spread of
-// the estimates over the picture; that spread includes how much the pixels differ, so the interval is too wide rather
+// the estimates over the image; that spread includes how much the pixels differ, so the interval is too wide rather
 // than too narrow. Where most of the noise is in paths that few samples have found yet, both are too small, as any
 // estimate from the samples is.
 struct NoiseEstimate {
@@ -29,8 +29,8 @@ struct NoiseEstimate {
 // Nothing if a pixel has fewer than 2 samples.
 std::optional<NoiseEstimate> estimate_noise(const Film& film);
 
-// The same, divided by the mean of the picture's values over its pixels and channels: 0.01 is noise of one percent of the
-// mean brightness. Nothing for a black picture either.
+// The same, divided by the mean of the image's values over its pixels and channels: 0.01 is noise of one percent of the
+// mean brightness. Nothing for a black image either.
 std::optional<NoiseEstimate> estimate_relative_noise(const Film& film);
 
 // What an image's expectation differs in from all the light that the scene's model sends to the camera, and what the
@@ -43,7 +43,7 @@ struct BiasReport {
 // What is known of it before the first sample.
 BiasReport make_ledger(const RenderJob& job, const Dialect& dialect);
 
-// All that a picture can tell about itself.
+// All that an image can tell about itself.
 struct Evidence {
     BiasReport ledger;
     std::optional<NoiseEstimate> noise;

@@ -10,7 +10,7 @@
 // wrapped, clamped or repaired.
 //
 // For the error bars there is also the sum of the samples' squares, in the same units and as exact; the squares of samples
-// of 2^18 and more, which few pictures have, are kept in a table aside, in units of 2^-20. 112 bytes a pixel.
+// of 2^18 and more, which few images have, are kept in a table aside, in units of 2^-20. 112 bytes a pixel.
 //
 // A film may have more channels than beauty: its layers (channel_set.h), which are part of what it is. They cost memory and
 // time only where there are some.
@@ -29,7 +29,7 @@
 namespace plumb {
 
 // Why a sample was left out.
-enum class Verdict { accepted, not_finite, negative, out_of_range };
+enum class SampleStatus { accepted, not_finite, negative, out_of_range };
 
 inline constexpr float film_max_value = 0x1p37f;
 inline constexpr std::uint64_t film_max_samples = max_samples_per_pixel;
@@ -42,7 +42,7 @@ class LayerSums;
 
 class Film {
 public:
-    // window: the pixels kept, of a picture of full_width x full_height. Throws Error if memory is short or if there are more
+    // window: the pixels kept, of an image of full_width x full_height. Throws Error if memory is short or if there are more
     // than max_layers.
     Film(PixelRect window, int full_width, int full_height, ChannelSet layers = {});
     Film(Film&&) noexcept;
@@ -55,12 +55,12 @@ public:
     const PixelRect& window() const { return window_; }
     const ChannelSet& layers() const;
 
-    // pixel: in coordinates of the full picture. weight: the filter's. Different pixels from different threads; one
+    // pixel: in coordinates of the full image. weight: the filter's. Different pixels from different threads; one
     // pixel from one thread at a time.
-    Verdict add(Vec2i pixel, const Color& radiance, float weight);
+    SampleStatus add(Vec2i pixel, const Color& radiance, float weight);
     // The same, and what the layers have of the sample if it is accepted. number: the sample's index.
-    Verdict add(Vec2i pixel, const Color& radiance, float weight, const LayerSample& layers,
-                std::uint64_t number);
+    SampleStatus add(Vec2i pixel, const Color& radiance, float weight, const LayerSample& layers,
+                     std::uint64_t number);
 
     std::uint64_t sample_count(Vec2i pixel) const;       // accepted ones
     std::uint64_t contributing_count(Vec2i pixel) const; // those of them that were not black

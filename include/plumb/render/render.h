@@ -22,7 +22,7 @@ namespace plumb {
 
 class Scene;
 
-// Everything that a picture depends on, but for the seed and the number of samples. Cheap to copy; several jobs may share
+// Everything that an image depends on, but for the seed and the number of samples. Cheap to copy; several jobs may share
 // what they have in common.
 struct RenderJob {
     std::shared_ptr<const Scene> scene;
@@ -36,8 +36,8 @@ struct RenderOptions {
     std::uint64_t samples_per_pixel = 0; // 0: what the scene file says
     std::uint64_t seed = 0;
     int threads = 0;               // 0: all
-    int tile_size = 32;            // pixels; changes no bit of the picture
-    std::optional<PixelRect> crop; // inside the picture
+    int tile_size = 32;            // pixels; changes no bit of the image
+    std::optional<PixelRect> crop; // inside the image
     std::vector<std::string> aovs; // names of layers: aovs.h
 };
 
@@ -47,7 +47,7 @@ struct LeftOut {
         Vec2i pixel;
         std::uint64_t index = 0;
         Color value;
-        Verdict verdict = Verdict::accepted;
+        SampleStatus status = SampleStatus::accepted;
     };
     std::uint64_t count = 0;
     Sample first; // meaningless when count is 0
@@ -56,7 +56,7 @@ struct LeftOut {
     LeftOut& operator+=(const LeftOut& other);
 };
 
-// What has been rendered so far: enough to make the picture of, and to go on from.
+// What has been rendered so far: enough to make the image of, and to go on from.
 struct RenderState {
     Film film;
     SampleSet taken; // those left out included
@@ -80,13 +80,13 @@ using ProgressReport = std::function<void(const Progress&)>;
 // Asked from all threads, for each row of a tile: whether to stop soon.
 using Pause = std::function<bool()>;
 
-// The pixels that the options want of the job's picture, and how many samples of each. They throw Error for a crop outside
-// the picture and for too many samples.
+// The pixels that the options want of the job's image, and how many samples of each. They throw Error for a crop outside
+// the image and for too many samples.
 PixelRect render_window(const RenderJob& job, const RenderOptions& options);
 std::uint64_t render_samples(const RenderJob& job, const RenderOptions& options);
 int render_threads(const RenderOptions& options);
 
-// A picture in the making. What a set of samples gives depends on job, seed and the set, and on nothing else: not on
+// An image in the making. What a set of samples gives depends on job, seed and the set, and on nothing else: not on
 // threads, tiles, crop, or the order and the calls in which they are taken.
 class Rendering {
 public:
@@ -117,7 +117,7 @@ struct ReplayedSample {
     Color value;
     Vec2f raster;
     float weight = 1.f;
-    Verdict verdict = Verdict::accepted;
+    SampleStatus status = SampleStatus::accepted;
     std::vector<PathEvent> log;
 };
 ReplayedSample replay(const RenderJob& job, const RenderOptions& options, Vec2i pixel,

@@ -58,7 +58,7 @@ private:
     std::vector<SampleBlock> blocks_;
 };
 
-// How to cut a picture into parts that take about equally long.
+// How to cut an image into parts that take about equally long.
 enum class PartBy { tiles, samples };
 
 // Part `index` (from 0) of `count`: a pure function, the parts are disjoint and together all samples of the window.

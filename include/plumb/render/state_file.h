@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Renderings on disk, to go on from: checkpoints, and the parts that machines render for one picture.
+// Renderings on disk, to go on from: checkpoints, and the parts that machines render for one image.
 //
-// A state file is an .exr that any viewer shows. R, G and B are the picture as far as it is; the other channels are
+// A state file is an .exr that any viewer shows. R, G and B are the image as far as it is; the other channels are
 // the film's words (film.h), 32-bit integers: sum.R.0 (the lowest) to squares.B.3, count and contributing, and large.R.0 to
-// large.B.3 of the large squares; a channel that is 0 everywhere is left out. Its header has what the picture's header will have of all that does
+// large.B.3 of the large squares; a channel that is 0 everywhere is left out. Its header has what the image's header will have of all that does
 // not depend on the samples (the caller's `header`), and
 //
 //     plumb:state          the version of this format: 2

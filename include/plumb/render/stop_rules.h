@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// When a rendering ends: pure functions of how many samples each pixel has, of the picture's noise, and of the time.
+// When a rendering ends: pure functions of how many samples each pixel has, of the image's noise, and of the time.
 
 #include "plumb/render/evidence.h"
 

@@ -30,7 +30,7 @@ struct SessionCallbacks {
     bool is_stopped() const { return stop && *stop; }
 };
 
-// One of the parts of a picture, from 0.
+// One of the parts of an image, from 0.
 struct PartSettings {
     std::uint64_t index = 0;
     std::uint64_t count = 1;
@@ -43,10 +43,10 @@ struct CheckpointSettings {
     double every_seconds = 60.0;
 };
 
-// Samples that a picture has, to be taken once more.
+// Samples that an image has, to be taken once more.
 struct SamplesAgain {
     SampleSet samples;
-    std::string stop = {}; // Evidence::stop of that picture
+    std::string stop = {}; // Evidence::stop of that image
 };
 
 // Of a run; never in a header.
@@ -71,15 +71,15 @@ public:
     // Takes samples until all are taken, a rule says so or somebody stops it; then it may be called again. Writes checkpoints
     // now and then; one that cannot be written is a warning.
     StopReason run();
-    // Writes the checkpoint, and keeps the one before. Throws Error. May be called while another thread makes the picture.
+    // Writes the checkpoint, and keeps the one before. Throws Error. May be called while another thread makes the image.
     void save() const;
 
     const RenderTask& task() const;
     const RenderState& state() const;
     Evidence evidence() const;
-    Image picture(
+    Image image(
         const Evidence& evidence) const; // with its header, and with error bars if the settings say so
-    Image picture() const { return picture(evidence()); }
+    Image image() const { return image(evidence()); }
 
 private:
     struct Impl;

@@ -25,7 +25,7 @@ struct Work {
     RenderSettings settings;
     std::vector<WorkPart> parts;
     std::vector<std::string> names;      // plumb:workPart of each
-    std::uint64_t samples_per_pixel = 0; // of the whole picture
+    std::uint64_t samples_per_pixel = 0; // of the whole image
 
     SampleSet wanted() const;
     SampleSet missing() const;
@@ -39,10 +39,10 @@ std::string missing_text(const Work& work);
 
 Evidence evidence_of(const Work& work);
 // That of a rendering in one piece, bit for bit, if nothing is missing.
-Image picture_of(const Work& work, const Evidence& evidence);
-inline Image picture_of(const Work& work)
+Image image_of(const Work& work, const Evidence& evidence);
+inline Image image_of(const Work& work)
 {
-    return picture_of(work, evidence_of(work));
+    return image_of(work, evidence_of(work));
 }
 
 // As a part that can be merged with others or resumed. Throws Error; keeps the file that is there as the generation before.

@@ -19,7 +19,7 @@ std::string comparison_json(const Comparison& comparison, const CompareSettings&
 // "0.0123", or "< 1e-300" for what is smaller: a p-value is never 0. digits: significant ones.
 std::string p_text(double p, int digits = 2);
 
-std::string_view outcome_word(CompareOutcome outcome); // passes, differs, undecided
-int exit_code_of(CompareOutcome outcome);              // 0, 3 or 4
+std::string_view verdict_word(Verdict verdict); // passes, differs, undecided
+int exit_code_of(Verdict verdict);              // 0, 3 or 4
 
 } // namespace plumb

@@ -10,11 +10,12 @@
 
 namespace plumb {
 
-// 1: a picture could not be rendered or compared; else 3: one differs; else 4: one is undecided; else 0. 128 and the number of
+// 1: an image could not be rendered or compared; else 3: one differs; else 4: one is undecided; else 0. 128 and the number of
 // the signal that interrupted it.
 int exit_code_of(const SuiteRun& run);
 
-std::string_view verdict_word(SuiteVerdict verdict); // passes, differs, not run, ...
+// The verdict, or how far it came: passes, differs, not run, ...
+std::string_view result_word(const SuiteResult& result);
 // One line: why the verdict is not "passes".
 std::string reason_text(const SuiteResult& result);
 std::string summary_text(const SuiteRun& run); // "3 pass, 1 differs; 2 were up to date"
@@ -22,18 +23,18 @@ std::string summary_text(const SuiteRun& run); // "3 pass, 1 differs; 2 were up 
 // A line of a table.
 std::string result_line(const SuiteResult& result, std::size_t title_width);
 
-// What report.html shows: kept of each picture while the suite runs.
-class SuitePictures {
+// What report.html shows: kept of each image while the suite runs.
+class ShownImages {
 public:
     // Of so many, references included: the more there are, the smaller they are shown.
-    explicit SuitePictures(std::size_t count);
+    explicit ShownImages(std::size_t count);
     void add(const SuiteResult& result, const SuiteImages& images);
 
     struct Shown {
         int width = 0;
         int height = 0;
         int reduction = 1;
-        std::string picture, reference; // of picture_data.h; empty: none
+        std::string image, reference; // of image_data.h; empty: none
     };
     const Shown* find(const std::string& title) const;
 
@@ -46,10 +47,10 @@ private:
 std::string suite_json(const SuiteRun& run);
 std::string suite_junit(const SuiteRun& run);
 std::string suite_markdown(const SuiteRun& run);
-std::string suite_html(const SuiteRun& run, const SuitePictures& pictures);
+std::string suite_html(const SuiteRun& run, const ShownImages& images);
 
 // All of them, as report.json, junit.xml, summary.md and report.html. Throws Error.
-void write_suite_reports(const SuiteRun& run, const SuitePictures& pictures,
+void write_suite_reports(const SuiteRun& run, const ShownImages& images,
                          const std::filesystem::path& directory);
 // Makes the directory, and touches no file in it. Throws Error if one of them cannot be written.
 void check_suite_reports(const std::filesystem::path& directory);

@@ -2,7 +2,7 @@
 #pragma once
 
 // The instruction sets that Embree can be told to trace with, on the kind of processor that Plumb was built for. One
-// of them is always named: Embree left to itself takes the best that the processor has, and the pictures of two
+// of them is always named: Embree left to itself takes the best that the processor has, and the images of two
 // machines would differ.
 
 #include <span>

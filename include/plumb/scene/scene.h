@@ -60,7 +60,7 @@ struct SceneMemory {
     std::uint64_t meshes = 0;
     std::uint64_t acceleration = 0;
     std::uint64_t acceleration_peak = 0;
-    std::uint64_t pictures = 0; // of environments
+    std::uint64_t images = 0; // of environments
 };
 
 // Conventions. World space. Emitters are chosen by what they are expected to send to the receiver (light_tree.h).

@@ -15,7 +15,7 @@
 
 namespace plumb {
 
-// Of the scene language, for the headers of pictures. It grows when a file comes to mean something else than before:
+// Of the scene language, for the headers of images. It grows when a file comes to mean something else than before:
 //     1   up to Plumb 0.1, whose headers do not have it
 //     2   `direction` of a directional light is where the light goes (but for mcgill); `delta` of a checkerboard counts
 //         rectangles
@@ -36,7 +36,7 @@ struct LoadedScene {
     std::vector<InputFile> inputs; // scene files, meshes, images
     std::string input_hash;        // of them all and of what options and dialect make of them; 32 hex digits
     std::vector<std::string> changed_readings; // what meant something else in version 1 of the language
-    std::uint64_t texture_bytes = 0;           // of the pictures in textures
+    std::uint64_t texture_bytes = 0;           // of the images in textures
     std::vector<Diagnostic> warnings;
     double parse_seconds = 0.0; // XML, meshes and images
     double build_seconds = 0.0; // Embree

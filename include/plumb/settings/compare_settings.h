@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// How two pictures are compared: compare.h.
+// How two images are compared: compare.h.
 
 #include "plumb/settings/settings.h"
 
@@ -15,7 +15,7 @@ enum class Side { a, b };
 enum class VarianceOf { sample, mean };
 enum class FlipMode { none, ldr, hdr };
 
-// The picture fails if the metric is above the limit. Metrics: mse, rmse, relmse, mae, max, flip; psnr is a lower
+// The image fails if the metric is above the limit. Metrics: mse, rmse, relmse, mae, max, flip; psnr is a lower
 // limit.
 struct Threshold {
     std::string metric;
@@ -25,9 +25,9 @@ struct Threshold {
 
 struct CompareSettings {
     std::string layer = {};         // compare the channels LAYER.*, at most three; empty: R, G and B, or Y
-    double significance = 0.01;     // the chance to say "differs" of two pictures with the same expectation
+    double significance = 0.01;     // the chance to say "differs" of two images with the same expectation
     bool verdict = true;            // look at the noise at all
-    std::optional<Side> exact = {}; // this picture has no noise
+    std::optional<Side> exact = {}; // this image has no noise
     std::optional<VarianceOf> variance_of =
         {};                             // what others' variance channels are of; absent: by their names
     std::optional<double> samples = {}; // per pixel, of images whose headers do not say

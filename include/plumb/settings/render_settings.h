@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What a picture is made from. Nothing here says where files are written or how many threads there are: these belong to
+// What an image is made from. Nothing here says where files are written or how many threads there are: these belong to
 // a run, and settings may come from a file.
 
 #include "plumb/image/image.h"
@@ -50,7 +50,7 @@ struct SampleSettings {
 
 // When a rendering ends besides the number of samples: stop_rules.h.
 struct StopSettings {
-    std::optional<double> seconds = {}; // for all pictures of a run together
+    std::optional<double> seconds = {}; // for all images of a run together
     std::optional<double> relative_error = {};
     friend bool operator==(const StopSettings&, const StopSettings&) = default;
 };

@@ -2,7 +2,7 @@
 #pragma once
 
 // Settings are values of a struct; as text they exist at the edges only: on the command line, in suites, in headers of
-// pictures and in messages. One table for each struct says how. A setting has the same name everywhere.
+// images and in messages. One table for each struct says how. A setting has the same name everywhere.
 
 #include <span>
 #include <string>
@@ -16,7 +16,7 @@ enum class Effect {
     samples,  // the value of a sample
     coverage, // which pixels and layers, and how many samples of each pixel
     stop,     // when a rendering ends before all samples are taken
-    file,     // how the picture becomes a file
+    file,     // how the image becomes a file
     verdict   // what a comparison says
 };
 

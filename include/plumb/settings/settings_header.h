@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The settings of a picture in its header.
+// The settings of an image in its header.
 //
 //     plumb:settings          the version of the schema, an integer
 //     plumb:set.NAME          a setting that is not the default; the line ends and backslashes in its values are \n, \r

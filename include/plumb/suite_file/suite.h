@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Reading a suite: an XML file that lists pictures to render, and what to compare them with.
+// Reading a suite: an XML file that lists images to render, and what to compare them with.
 //
-//     <suite size="160x120">                                     settings of every picture in it
+//     <suite size="160x120">                                     settings of every image in it
 //         <render scene="cbox.xml" spp="16, 64" reference="references/cbox.exr" reference-spp="1024"/>
 //         <group name="hw4" max="rmse=0.01">                     and of those in a part of it
 //             <render scene="box.xml" name="explicit"> <define name="explicit" value="true"/> </render>
@@ -28,10 +28,9 @@ struct SuiteSetting {
     SourceLocation at;
 };
 
-// One picture.
+// One image.
 struct SuiteEntry {
-    std::string
-        name; // of the picture in the output directory, without sample count and ending: "hw4/explicit"
+    std::string name; // of the image in the output directory, without sample count and ending: "hw4/explicit"
     std::filesystem::path scene;
     SourceLocation scene_at;
     std::string scene_way_out; // if there is no such file: "; did you mean '../a.xml'?", or empty

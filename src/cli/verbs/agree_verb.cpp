@@ -25,7 +25,7 @@ int run(const MethodsOptions& options)
     if (!options.quiet && options.json != "-") print_output(agreement_text(options.subject(), agreement));
     if (!options.json.empty())
         write_json(options.json, agreement_json(options.subject(), agreement, options.how));
-    return exit_code_of(agreement.outcome);
+    return exit_code_of(agreement.verdict);
 }
 
 constexpr std::string_view manual =

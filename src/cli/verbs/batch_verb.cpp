@@ -15,7 +15,7 @@ namespace {
 
 struct Options : VerbOptions {
     RenderSettings settings; // of them, definitions: of $name in the suite
-    std::string directory;   // for pictures and reports; empty: batch/<suite>
+    std::string directory;   // for images and reports; empty: batch/<suite>
     bool update = false;
     std::string filter;
     bool fail_fast = false;
@@ -23,7 +23,7 @@ struct Options : VerbOptions {
     int threads = 0;
 };
 
-// The progress of each picture, on a terminal: no lines between those of the table.
+// The progress of each image, on a terminal: no lines between those of the table.
 class Display {
 public:
     explicit Display(bool quiet) : quiet_(quiet || !log_is_terminal()) {}
@@ -40,7 +40,7 @@ private:
 };
 
 SuiteRun run_and_tell(const Options& options, const std::vector<SuiteJob>& jobs, const SuiteOptions& how,
-                      SuitePictures& pictures)
+                      ShownImages& images)
 {
     std::size_t width = 0;
     for (const SuiteJob& job : chosen_jobs(options.subject(), jobs, how))
@@ -49,8 +49,8 @@ SuiteRun run_and_tell(const Options& options, const std::vector<SuiteJob>& jobs,
     const InterruptGuard guard(Interruption::by_hand);
     const auto tell = [&](const SuiteResult& result, const SuiteImages& images) {
         display.end();
-        pictures.add(result, images);
-        if (!options.quiet || result.verdict == SuiteVerdict::error) print_output(result_line(result, width));
+        images.add(result, images);
+        if (!options.quiet || result.state == JobState::failed) print_output(result_line(result, width));
         finish_output(); // so far
     };
     SuiteRun run = run_suite(options.subject(), jobs, how,
@@ -67,7 +67,7 @@ int run(const Options& options)
     const std::vector<SuiteJob> jobs = plan_suite(suite, options.settings.scene.definitions);
     SuiteOptions how{{}, options.filter, options.fail_fast, options.update, options.force, options.threads};
     if (options.update) {
-        SuitePictures none(1);
+        ShownImages none(1);
         const SuiteRun made = run_and_tell(options, jobs, how, none);
         if (!options.quiet) print_output(summary_text(made) + "\n");
         return exit_code_of(made);
@@ -78,9 +78,9 @@ int run(const Options& options)
                         ? std::filesystem::path("batch") / std::filesystem::path(suite).stem()
                         : std::filesystem::path(options.directory);
     check_suite_reports(how.directory);
-    SuitePictures pictures(shown);
-    const SuiteRun done = run_and_tell(options, jobs, how, pictures);
-    write_suite_reports(done, pictures, how.directory);
+    ShownImages images(shown);
+    const SuiteRun done = run_and_tell(options, jobs, how, images);
+    write_suite_reports(done, images, how.directory);
     if (!options.quiet)
         print_output(fmt::format("{}; reports: {}\n", summary_text(done),
                                  visible_text((how.directory / "report.html").string())));

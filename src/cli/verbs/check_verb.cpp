@@ -21,14 +21,14 @@ struct Options : VerbOptions {
 
 constexpr double megabyte = 1e6;
 
-// What the scene has taken so far, and what film and picture will.
+// What the scene has taken so far, and what film and image will.
 std::string memory_text(const LoadedScene& scene)
 {
     const auto now = static_cast<double>(peak_memory());
     const Vec2i size = scene.job.camera->resolution();
-    constexpr double picture_bytes = 7 * sizeof(float);
+    constexpr double image_bytes = 7 * sizeof(float);
     const double later = static_cast<double>(size.x) * static_cast<double>(size.y) *
-                         (static_cast<double>(Film::bytes_per_pixel()) + picture_bytes);
+                         (static_cast<double>(Film::bytes_per_pixel()) + image_bytes);
     return fmt::format(
         "memory: {:.0f} MB for the scene and the program, {:.0f} MB for film and image without AOVs",
         now / megabyte, later / megabyte);
@@ -72,10 +72,10 @@ Exit code: 0 no mistakes found, 1 errors, 2 wrong usage, 3 likely mistakes.
 
 OptionTable<Options> table()
 {
-    return join<Options>(
-        {setting_options<Options>(Topic::picture, &Options::settings, {"size", "integrator"}),
-         scene_options<Options>(), setting_options<Options>(Topic::running, &Options::settings, {"isa"}),
-         quiet_option<Options>(), verbose_option<Options>(), help_option<Options>()});
+    return join<Options>({setting_options<Options>(Topic::image, &Options::settings, {"size", "integrator"}),
+                          scene_options<Options>(),
+                          setting_options<Options>(Topic::running, &Options::settings, {"isa"}),
+                          quiet_option<Options>(), verbose_option<Options>(), help_option<Options>()});
 }
 
 } // namespace

@@ -17,7 +17,7 @@ namespace {
 // b is the reference. Several files of one side are replicas: they differ in their seeds.
 struct Options : VerbOptions {
     CompareSettings settings;
-    std::string difference; // the picture of it to write; empty: none
+    std::string difference; // the image of it to write; empty: none
     bool difference_is_flip = false;
     std::string json;
     std::vector<std::string> a, b;
@@ -94,7 +94,7 @@ int run(const Options& options)
         write_json(options.json, comparison_json(comparison, how, options.a, options.b));
     if (!options.quiet && options.json != "-")
         print_output(title("A", options.a) + title("B", options.b) + comparison_text(comparison, how));
-    return exit_code_of(comparison.outcome);
+    return exit_code_of(comparison.verdict);
 }
 
 constexpr std::string_view manual =

@@ -14,10 +14,10 @@ namespace plumb {
 namespace {
 
 struct Options : VerbOptions {
-    std::vector<std::string> outputs; // pictures
+    std::vector<std::string> outputs; // images
     std::string json;
     std::string checkpoint;     // the sum as a part; empty: none
-    bool allow_missing = false; // make the picture although samples are missing
+    bool allow_missing = false; // make the image although samples are missing
 };
 
 void settle(Options& options)
@@ -46,8 +46,8 @@ int run(const Options& options)
     if (!checkpoint.empty()) save_work(work, checkpoint);
     if (!options.outputs.empty()) {
         const Evidence evidence = evidence_of(work);
-        write_pictures(options.outputs, picture_of(work, evidence), work.settings.output.exposure,
-                       packing_of(evidence), parts.front().parent_path());
+        write_images(options.outputs, image_of(work, evidence), work.settings.output.exposure,
+                     packing_of(evidence), parts.front().parent_path());
     }
     write_json(options.json, work_json(work, options.outputs, checkpoint));
     if (options.quiet) return exit_code::done;

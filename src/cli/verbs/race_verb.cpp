@@ -24,7 +24,7 @@ int run(const MethodsOptions& options)
     }
     if (!options.quiet && options.json != "-") print_output(race_text(options.subject(), result));
     if (!options.json.empty()) write_json(options.json, race_json(options.subject(), result, options.how));
-    return exit_code_of(result.means.outcome);
+    return exit_code_of(result.means.verdict);
 }
 
 constexpr std::string_view manual =
@@ -45,7 +45,7 @@ Exit code: 0 they agree, 1 the scene is wrong, 2 wrong usage, 3 they differ,
 
 OptionTable<MethodsOptions> rounds()
 {
-    return {{{Topic::picture, "--rounds", "N",
+    return {{{Topic::image, "--rounds", "N",
               "images per estimator, of --spp samples each\n"
               "(default 16)",
               false, false},

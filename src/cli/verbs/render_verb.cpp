@@ -20,7 +20,7 @@ struct Options : VerbOptions {
     int threads = 0;
 };
 
-// A part is no picture yet: its output is the state file. What goes with what.
+// A part is no image yet: its output is the state file. What goes with what.
 void settle(Options& options)
 {
     if (options.part_by && !options.part) throw UsageError("--part-by needs --part K/N");
@@ -94,7 +94,7 @@ OptionTable<Options> table()
          setting_options<Options>(Topic::output, &Options::settings, {"exposure", "no-variance"}),
          json_option<Options>(), state_options(),
          setting_options<Options>(
-             Topic::picture, &Options::settings,
+             Topic::image, &Options::settings,
              {"spp", "seed", "size", "crop", "aov", "integrator", "sampler", "time", "target-error"}),
          scene_options<Options>(), threads_option<Options>(),
          setting_options<Options>(Topic::running, &Options::settings, {"isa"}), quiet_option<Options>(),

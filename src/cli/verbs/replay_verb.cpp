@@ -51,7 +51,7 @@ int run(const Options& options)
     for (const PathEvent& event : sample.log)
         print_output(fmt::format("{:<9} {}\n", kind_text(event.kind), event.text));
     print_output(fmt::format("\nvalue     {}\nweight    {}\nverdict   {}\n", color_text(sample.value),
-                             sample.weight, verdict_text(sample.verdict)));
+                             sample.weight, status_text(sample.status)));
     return exit_code::done;
 }
 
@@ -64,7 +64,7 @@ OptionTable<Options> table()
          [](Options& o, std::string_view n, const std::string& t) {
              o.sample = parse_integer(n, t, 0, UINT64_MAX);
          }}};
-    return join<Options>({setting_options<Options>(Topic::picture, &Options::settings,
+    return join<Options>({setting_options<Options>(Topic::image, &Options::settings,
                                                    {"spp", "seed", "size", "integrator", "sampler"}),
                           scene_options<Options>(),
                           setting_options<Options>(Topic::running, &Options::settings, {"isa"}),

@@ -153,7 +153,7 @@ All files are read before the first test runs. Exit codes: 0 all tests passed,
 OptionTable<Options> table()
 {
     return join<Options>(
-        {json_option<Options>(), setting_options<Options>(Topic::picture, &Options::settings, {"seed"}),
+        {json_option<Options>(), setting_options<Options>(Topic::image, &Options::settings, {"seed"}),
          setting_options<Options>(Topic::scene, &Options::settings,
                                   {"define", "dialect", "emitters", "envmap-scale", "lenient"}),
          threads_option<Options>(), setting_options<Options>(Topic::running, &Options::settings, {"isa"}),

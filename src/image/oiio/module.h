@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What libplumb_images.so does: pictures.cpp and words.cpp.
+// What libplumb_images.so does: images.cpp and words.cpp.
 
 #include "image/image_module.h"
 
@@ -12,9 +12,9 @@ public:
     std::unique_ptr<PixelBuffer> make_buffer(const PixelRect& data, int full_width, int full_height,
                                              const std::vector<std::string>& channels,
                                              bool clear) const override;
-    DecodedPicture read(const std::string& name) const override;
+    DecodedImage read(const std::string& name) const override;
     std::optional<ByteImage> read_bytes(const std::string& name) const override;
-    std::vector<unsigned char> encode(const PictureFile& picture) const override;
+    std::vector<unsigned char> encode(const ImageFile& image) const override;
     std::vector<unsigned char> encode_words(const WordImage& image, const FillRows& fill) const override;
     void read_words(const std::string& name, const ChooseChannels& choose, const UseRow& use) const override;
 };

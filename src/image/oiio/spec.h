@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What our files of pictures have in common with OpenImageIO's idea of them; for src/image/oiio.
+// What our files of images have in common with OpenImageIO's idea of them; for src/image/oiio.
 
 #include "plumb/image/image.h"
 
@@ -17,7 +17,7 @@ namespace plumb {
 // The file at `name`, opened by a reader for what it holds. Throws Error with the reason.
 std::unique_ptr<OIIO::ImageInput> open_image(const std::string& name);
 
-// The pixels that exist, seen from the corner of the full picture. Throws Error if they are too far from it.
+// The pixels that exist, seen from the corner of the full image. Throws Error if they are too far from it.
 PixelRect data_window_of(const OIIO::ImageSpec& spec);
 
 Metadata metadata_of(const OIIO::ImageSpec& spec);

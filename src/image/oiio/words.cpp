@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-// Pictures of 32-bit words.
+// Images of 32-bit words.
 
 #include "image/image_text.h"
 #include "image/oiio/module.h"

@@ -22,25 +22,25 @@ bool is_tiny(std::string_view digits)
 
 ObjNumber parse_obj_number(std::string_view token)
 {
-    using Verdict = ObjNumber::Verdict;
+    using Status = ObjNumber::Status;
     std::string_view digits = token;
     if (digits.starts_with('+')) {
         digits.remove_prefix(1);
-        if (digits.starts_with('-')) return {Verdict::unreadable, 0.f};
+        if (digits.starts_with('-')) return {Status::unreadable, 0.f};
     }
     float value = 0.f;
     const char* const end = digits.data() + digits.size();
     const std::from_chars_result result = std::from_chars(digits.data(), end, value);
-    if (result.ec == std::errc::invalid_argument || result.ptr != end) return {Verdict::unreadable, 0.f};
+    if (result.ec == std::errc::invalid_argument || result.ptr != end) return {Status::unreadable, 0.f};
     if (digits.starts_with('-')) digits.remove_prefix(1);
     if (result.ec == std::errc::result_out_of_range) {
-        if (is_tiny(digits)) return {Verdict::good, 0.f};
-        return {Verdict::too_large, 0.f};
+        if (is_tiny(digits)) return {Status::good, 0.f};
+        return {Status::too_large, 0.f};
     }
-    if (std::isfinite(value)) return {Verdict::good, value};
+    if (std::isfinite(value)) return {Status::good, value};
     // "inf", or so many digits that the nearest float is infinity
     const bool digit_first = digits.find_first_of("0123456789") != std::string_view::npos;
-    return {digit_first ? Verdict::too_large : Verdict::not_finite, 0.f};
+    return {digit_first ? Status::too_large : Status::not_finite, 0.f};
 }
 
 std::string excerpt(std::string_view token)

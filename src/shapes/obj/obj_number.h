@@ -9,8 +9,8 @@
 namespace plumb {
 
 struct ObjNumber {
-    enum class Verdict { good, unreadable, not_finite, too_large };
-    Verdict verdict = Verdict::good;
+    enum class Status { good, unreadable, not_finite, too_large };
+    Status status = Status::good;
     float value = 0.f; // the nearest float; 0 for numbers too small to tell from it
 };
 

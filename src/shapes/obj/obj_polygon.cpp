@@ -14,7 +14,7 @@ namespace plumb {
 
 namespace {
 
-// Up to here, pictures have their bits from these triangles. It takes 0.1 ms.
+// Up to here, images have their bits from these triangles. It takes 0.1 ms.
 constexpr std::size_t max_simple_corners = 128;
 
 // The polygon seen from the side that its normal points to: counter-clockwise, along the normal's longest axis.

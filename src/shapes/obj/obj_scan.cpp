@@ -123,12 +123,12 @@ private:
     float number(std::string_view token, const Numbers& kind) const
     {
         const ObjNumber read = parse_obj_number(token);
-        if (read.verdict == ObjNumber::Verdict::good && std::abs(read.value) <= largest_coordinate)
+        if (read.status == ObjNumber::Status::good && std::abs(read.value) <= largest_coordinate)
             return read.value;
-        if (read.verdict == ObjNumber::Verdict::unreadable)
+        if (read.status == ObjNumber::Status::unreadable)
             fail(token,
                  fmt::format("'{}' is not a number; {} is written {}", excerpt(token), kind.name, kind.form));
-        if (read.verdict == ObjNumber::Verdict::not_finite)
+        if (read.status == ObjNumber::Status::not_finite)
             fail(token, fmt::format("numbers must be finite, not '{}'", excerpt(token)));
         fail(token, fmt::format("numbers must lie between -1e18 and 1e18, not '{}'", excerpt(token)));
     }

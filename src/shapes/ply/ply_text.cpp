@@ -187,13 +187,13 @@ private:
         const std::string_view token(p, token_end(p, end));
         const ObjNumber number = parse_obj_number(token);
         p = token.data() + token.size();
-        switch (number.verdict) {
-        case ObjNumber::Verdict::unreadable: fail(token, fmt::format("'{}' is not a number", excerpt(token)));
-        case ObjNumber::Verdict::not_finite:
+        switch (number.status) {
+        case ObjNumber::Status::unreadable: fail(token, fmt::format("'{}' is not a number", excerpt(token)));
+        case ObjNumber::Status::not_finite:
             if (!target.first) return 0.f;
             fail(token, fmt::format("'{}' is not a finite number", excerpt(token)));
-        case ObjNumber::Verdict::too_large: break;
-        case ObjNumber::Verdict::good:
+        case ObjNumber::Status::too_large: break;
+        case ObjNumber::Status::good:
             if (std::abs(number.value) <= target.largest) return number.value;
         }
         if (!target.first) return 0.f;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 
-// Pictures that are compared: what a codec made of two files.
+// Images that are compared: what a codec made of two files.
 
 #include "plumb/compare/compare.h"
 #include "fuzz/fuzz.h"
-#include "fuzz/picture_text.h"
+#include "fuzz/image_text.h"
 
 #include <cmath>
 
@@ -43,9 +43,9 @@ void compare_two(const Image& a, const Image& b, FlipMode flip)
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
-    const std::vector<std::string_view> pictures = split_pictures(text_of(data, size));
-    const auto first = write_file("a.exr", pictures.front());
-    const auto second = write_file("b.exr", pictures.back());
+    const std::vector<std::string_view> images = split_images(text_of(data, size));
+    const auto first = write_file("a.exr", images.front());
+    const auto second = write_file("b.exr", images.back());
     allow_our_errors([&] {
         const Image a = read_image(first, true);
         const Image b = read_image(second, true);
@@ -54,7 +54,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
         const FlipMode mode = size % 2 == 0 ? FlipMode::hdr : FlipMode::ldr;
         compare_two(a, b, small ? mode : FlipMode::none);
         const Comparison same = compare(a, a, {.flip = FlipMode::none});
-        expect(same.outcome != CompareOutcome::differs, "an image differs from itself");
+        expect(same.verdict != Verdict::differs, "an image differs from itself");
     });
     return 0;
 }

@@ -4,7 +4,7 @@
 
 #include "cli/verbs.h"
 #include "fuzz/fuzz.h"
-#include "fuzz/picture_text.h"
+#include "fuzz/image_text.h"
 #include "fuzz/state_mutator.h"
 
 using namespace plumb;
@@ -13,7 +13,7 @@ using namespace plumb::fuzz;
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     std::vector<std::string> words = {"merge"};
-    for (const std::string_view part : split_pictures(text_of(data, size))) {
+    for (const std::string_view part : split_images(text_of(data, size))) {
         if (words.size() > 4) break;
         const std::string name = "part" + std::to_string(words.size()) + ".exr";
         words.push_back(write_file(name, part).string());

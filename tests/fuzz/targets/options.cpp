@@ -23,7 +23,7 @@ OptionTable<Options> table()
 {
     OptionTable<Options> all;
     for (const auto& row : setting_rows<RenderSettings>())
-        all.push_back(setting_options<Options>(Topic::picture, &Options::settings, {row.name}).front());
+        all.push_back(setting_options<Options>(Topic::image, &Options::settings, {row.name}).front());
     return all;
 }
 

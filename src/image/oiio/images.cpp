@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-// Pictures in memory, reading and encoding them.
+// Images in memory, reading and encoding them.
 
 #include "image/image_text.h"
 #include "image/oiio/module.h"
@@ -49,18 +49,18 @@ private:
     float* pixels_ = nullptr;
 };
 
-OIIO::ImageSpec spec_of(const PictureFile& picture)
+OIIO::ImageSpec spec_of(const ImageFile& image)
 {
-    const PixelRect& data = picture.data;
-    OIIO::ImageSpec spec(data.width, data.height, static_cast<int>(picture.channels.size()),
-                         picture.bytes ? OIIO::TypeUInt8 : OIIO::TypeFloat);
-    spec.channelnames = picture.channels;
+    const PixelRect& data = image.data;
+    OIIO::ImageSpec spec(data.width, data.height, static_cast<int>(image.channels.size()),
+                         image.bytes ? OIIO::TypeUInt8 : OIIO::TypeFloat);
+    spec.channelnames = image.channels;
     spec.x = data.x;
     spec.y = data.y;
-    spec.full_width = picture.full_width;
-    spec.full_height = picture.full_height;
-    put_metadata(spec, picture.metadata);
-    for (const auto& [name, value] : picture.format) spec.attribute(name, std::get<std::string>(value));
+    spec.full_width = image.full_width;
+    spec.full_height = image.full_height;
+    put_metadata(spec, image.metadata);
+    for (const auto& [name, value] : image.format) spec.attribute(name, std::get<std::string>(value));
     return spec;
 }
 
@@ -80,7 +80,7 @@ std::unique_ptr<PixelBuffer> OiioModule::make_buffer(const PixelRect& data, int 
     return std::make_unique<Buffer>(spec, clear ? OIIO::InitializePixels::Yes : OIIO::InitializePixels::No);
 }
 
-DecodedPicture OiioModule::read(const std::string& name) const
+DecodedImage OiioModule::read(const std::string& name) const
 {
     const QuietStandardError quiet;
     const std::unique_ptr<OIIO::ImageInput> input = open_image(name);
@@ -88,23 +88,22 @@ DecodedPicture OiioModule::read(const std::string& name) const
     if (spec.deep) throw Error("images with deep pixels are not supported");
     if (spec.depth > 1) throw Error("volumes are not supported");
 
-    DecodedPicture picture;
-    picture.data = data_window_of(spec);
-    picture.full_width = spec.full_width;
-    picture.full_height = spec.full_height;
-    picture.channels = spec.channelnames;
-    picture.channels.resize(static_cast<std::size_t>(std::max(spec.nchannels, 0)));
+    DecodedImage image;
+    image.data = data_window_of(spec);
+    image.full_width = spec.full_width;
+    image.full_height = spec.full_height;
+    image.channels = spec.channelnames;
+    image.channels.resize(static_cast<std::size_t>(std::max(spec.nchannels, 0)));
     // Not cleared: a broken file may claim any size.
-    picture.buffer =
-        make_buffer(picture.data, picture.full_width, picture.full_height, picture.channels, false);
-    const bool good = input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeFloat, picture.buffer->pixels());
+    image.buffer = make_buffer(image.data, image.full_width, image.full_height, image.channels, false);
+    const bool good = input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeFloat, image.buffer->pixels());
     const std::string reason = input->geterror();
     if (!good || !reason.empty()) throw Error(one_line(reason));
-    if (spec.format == OIIO::TypeUInt8) picture.integer_levels = 256;
-    if (spec.format == OIIO::TypeUInt16) picture.integer_levels = 65536;
-    picture.alpha_channel = spec.alpha_channel;
-    picture.metadata = metadata_of(spec);
-    return picture;
+    if (spec.format == OIIO::TypeUInt8) image.integer_levels = 256;
+    if (spec.format == OIIO::TypeUInt16) image.integer_levels = 65536;
+    image.alpha_channel = spec.alpha_channel;
+    image.metadata = metadata_of(spec);
+    return image;
 }
 
 std::optional<ByteImage> OiioModule::read_bytes(const std::string& name) const
@@ -124,12 +123,12 @@ std::optional<ByteImage> OiioModule::read_bytes(const std::string& name) const
     return image;
 }
 
-std::vector<unsigned char> OiioModule::encode(const PictureFile& picture) const
+std::vector<unsigned char> OiioModule::encode(const ImageFile& image) const
 {
-    return encode_image(picture.name, spec_of(picture), [&](OIIO::ImageOutput& output) {
-        if (picture.bytes) return output.write_image(OIIO::TypeUInt8, picture.bytes);
-        const auto stride = static_cast<OIIO::stride_t>(sizeof(float)) * picture.floats_per_pixel;
-        return output.write_image(OIIO::TypeFloat, picture.floats, stride);
+    return encode_image(image.name, spec_of(image), [&](OIIO::ImageOutput& output) {
+        if (image.bytes) return output.write_image(OIIO::TypeUInt8, image.bytes);
+        const auto stride = static_cast<OIIO::stride_t>(sizeof(float)) * image.floats_per_pixel;
+        return output.write_image(OIIO::TypeFloat, image.floats, stride);
     });
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Pictures as text inside a web page.
+// Images as text inside a web page.
 
 #include "plumb/image/image.h"
 

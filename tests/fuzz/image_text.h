@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Pictures as text, for fuzz targets: what a codec makes of a file, written down. Every text is one; what makes no sense
+// Images as text, for fuzz targets: what a codec makes of a file, written down. Every text is one; what makes no sense
 // is skipped.
 //
-//     window 0 0 2 1 of 4 4          x, y, width, height; then the size of the full picture
+//     window 0 0 2 1 of 4 4          x, y, width, height; then the size of the full image
 //     floats R G B                   the channels of floats
 //     words count                    those of 32-bit integers, which come behind them
-//     levels 256                     the values were integers (DecodedPicture::integer_levels)
+//     levels 256                     the values were integers (DecodedImage::integer_levels)
 //     int plumb:state 2              of the header, one a line
 //     text plumb:inputs 00 a.xml\n01 b.obj
 //     float plumb:envmapScale 0.5
@@ -15,7 +15,7 @@
 //     pixels
 //     ....                           32-bit values, pixel by pixel, the lowest byte first; those that are missing are 0
 //
-// A line `next` ends a picture that is followed by another.
+// A line `next` ends an image that is followed by another.
 
 #include "image/image_words.h"
 
@@ -25,7 +25,7 @@
 
 namespace plumb::fuzz {
 
-struct TextPicture {
+struct TextImage {
     PixelRect data{0, 0, 1, 1};
     int full_width = 1;
     int full_height = 1;
@@ -40,14 +40,14 @@ struct TextPicture {
     std::uint32_t value(std::size_t index) const;
 };
 
-TextPicture parse_picture(std::string_view text);
-std::string picture_text(const TextPicture& picture);
+TextImage parse_image(std::string_view text);
+std::string image_text(const TextImage& image);
 
-// The texts of the pictures in one, of which there is at least one.
-std::vector<std::string_view> split_pictures(std::string_view text);
-inline constexpr std::string_view picture_separator = "\nnext\n";
+// The texts of the images in one, of which there is at least one.
+std::vector<std::string_view> split_images(std::string_view text);
+inline constexpr std::string_view image_separator = "\nnext\n";
 
-// What was asked for and handed over when a picture of words was read last (text_pictures.cpp).
+// What was asked for and handed over when an image of words was read last (text_images.cpp).
 struct WordsRead {
     std::vector<std::string> channels;
     std::vector<std::vector<std::uint32_t>> rows;

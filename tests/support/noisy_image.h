@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Pictures of pure noise with the channels that tell about it, for tests of comparisons.
+// Images of pure noise with the channels that tell about it, for tests of comparisons.
 
 #include "plumb/image/image.h"
 #include "support/random.h"
@@ -102,7 +102,7 @@ inline SampleKind rare_light(double share, double chance)
             }};
 }
 
-struct NoisyPicture {
+struct NoisyImage {
     int size = 16; // of a side
     int samples = 64;
     double bias = 1.0;     // factor of all pixels
@@ -112,7 +112,7 @@ struct NoisyPicture {
     std::vector<std::string> channels = {"Y"}; // all the same
 };
 
-inline Image noisy_picture(const NoisyPicture& how, const SampleKind& kind, std::uint64_t seed)
+inline Image noisy_image(const NoisyImage& how, const SampleKind& kind, std::uint64_t seed)
 {
     std::vector<std::string> names = how.channels;
     if (how.knows_noise) {
@@ -146,13 +146,13 @@ inline Image noisy_picture(const NoisyPicture& how, const SampleKind& kind, std:
     return image;
 }
 
-// What the pictures estimate.
-inline Image true_picture(const NoisyPicture& how)
+// What the images estimate.
+inline Image true_image(const NoisyImage& how)
 {
-    NoisyPicture exact = how;
+    NoisyImage exact = how;
     exact.knows_noise = false;
     exact.bias = 1.0;
-    return noisy_picture(exact, one_by_one("1", [](TestRandom&) { return 1.0; }), 1);
+    return noisy_image(exact, one_by_one("1", [](TestRandom&) { return 1.0; }), 1);
 }
 
 } // namespace plumb::test

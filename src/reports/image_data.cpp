@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "reports/picture_data.h"
+#include "reports/image_data.h"
 
 #include <algorithm>
 #include <array>

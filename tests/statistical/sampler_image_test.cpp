@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-// Pictures by samplers whose samples depend on each other: their expectation is that of independent samples, and their
+// Images by samplers whose samples depend on each other: their expectation is that of independent samples, and their
 // error bars are upper bounds.
 
 #include "plumb/statistics/mean_and_variance.h"
@@ -70,27 +70,27 @@ RenderState render_with(const RenderJob& job, std::uint64_t samples, std::uint64
     return render(job, options);
 }
 
-double brightness(const Image& picture)
+double brightness(const Image& image)
 {
     double sum = 0.0;
-    for (int y = 0; y < picture.data_window().height; ++y)
-        for (int x = 0; x < picture.data_window().width; ++x)
-            sum += static_cast<double>(luminance(picture.color(x, y)));
+    for (int y = 0; y < image.data_window().height; ++y)
+        for (int x = 0; x < image.data_window().width; ++x)
+            sum += static_cast<double>(luminance(image.color(x, y)));
     return sum;
 }
 
-MeanAndVariance brightness_of_pictures(const RenderJob& job, std::uint64_t samples, std::uint64_t pictures,
-                                       std::uint64_t seed)
+MeanAndVariance brightness_of_images(const RenderJob& job, std::uint64_t samples, std::uint64_t images,
+                                     std::uint64_t seed)
 {
     MeanAndVariance result;
-    for (std::uint64_t i = 0; i < pictures; ++i)
+    for (std::uint64_t i = 0; i < images; ++i)
         result.add(brightness(render_with(job, samples, seed * 1'000'000 + i).film.develop()));
     return result;
 }
 
 } // namespace
 
-TEST_CASE("pictures of all samplers have one expectation", "[statistical][sampler]")
+TEST_CASE("images of all samplers have one expectation", "[statistical][sampler]")
 {
     const std::string sampler = GENERATE(as<std::string>{}, "sobol", "stratified");
     for (const Case& one : cases) {
@@ -98,9 +98,9 @@ TEST_CASE("pictures of all samplers have one expectation", "[statistical][sample
         const LoadedScene other = load_with(one, sampler);
         const bool passed = test::check_statistic(
             sampler + ", " + one.name,
-            [&](std::uint64_t pictures, std::uint64_t seed) {
-                return test::same_mean_outcome(brightness_of_pictures(independent.job, 7, pictures, 2 * seed),
-                                               brightness_of_pictures(other.job, 7, pictures, 2 * seed + 1));
+            [&](std::uint64_t images, std::uint64_t seed) {
+                return test::same_mean_outcome(brightness_of_images(independent.job, 7, images, 2 * seed),
+                                               brightness_of_images(other.job, 7, images, 2 * seed + 1));
             },
             100, test::sidak_level(test::significance, 2 * cases.size()), 1);
         CHECK(passed);
@@ -109,7 +109,7 @@ TEST_CASE("pictures of all samplers have one expectation", "[statistical][sample
 
 TEST_CASE("error bars of dependent samples are upper bounds", "[statistical][sampler][evidence]")
 {
-    // Half the squared difference of two pictures is their squared error in the mean; what their error bars say must not be
+    // Half the squared difference of two images is their squared error in the mean; what their error bars say must not be
     // less. Whatever the number of samples, a power of two or not.
     const std::string sampler = GENERATE(as<std::string>{}, "sobol", "stratified");
     const std::uint64_t samples = GENERATE(2, 7, 16);
@@ -123,13 +123,13 @@ TEST_CASE("error bars of dependent samples are upper bounds", "[statistical][sam
                 for (std::uint64_t i = 0; i < pairs; ++i) {
                     const Film a = render_with(loaded.job, samples, seed * 1'000'000 + 2 * i).film;
                     const Film b = render_with(loaded.job, samples, seed * 1'000'000 + 2 * i + 1).film;
-                    const Image picture_a = a.develop();
-                    const Image picture_b = b.develop();
+                    const Image image_a = a.develop();
+                    const Image image_b = b.develop();
                     double error = 0.0;
                     double bars = 0.0;
                     for (int y = 0; y < a.window().height; ++y) {
                         for (int x = 0; x < a.window().width; ++x) {
-                            const Color difference = picture_a.color(x, y) - picture_b.color(x, y);
+                            const Color difference = image_a.color(x, y) - image_b.color(x, y);
                             error += sqr(static_cast<double>(difference.g)) / 2.0;
                             bars += static_cast<double>(a.variance_of_mean({x, y}).g +
                                                         b.variance_of_mean({x, y}).g) /

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What a picture's file says of it.
+// What an image's file says of it.
 
 #include "plumb/image/image.h"
 
@@ -9,20 +9,20 @@
 
 namespace plumb {
 
-using PictureHeader = std::map<std::string, MetadataValue>;
+using ImageHeader = std::map<std::string, MetadataValue>;
 
-inline PictureHeader header(const std::filesystem::path& image)
+inline ImageHeader header(const std::filesystem::path& image)
 {
     const Image read = read_image(image, false);
     return {read.metadata.begin(), read.metadata.end()};
 }
 
-inline int integer(const PictureHeader& header, const std::string& name)
+inline int integer(const ImageHeader& header, const std::string& name)
 {
     return std::get<int>(header.at(name));
 }
 
-inline std::string text(const PictureHeader& header, const std::string& name)
+inline std::string text(const ImageHeader& header, const std::string& name)
 {
     const auto found = header.find(name);
     if (found == header.end()) return "no " + name;

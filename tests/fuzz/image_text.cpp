@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "fuzz/picture_text.h"
+#include "fuzz/image_text.h"
 
 #include <charconv>
 #include <fmt/format.h>
@@ -54,31 +54,31 @@ std::string escaped(std::string_view text)
     return result;
 }
 
-void parse_window(std::string_view text, TextPicture& picture)
+void parse_window(std::string_view text, TextImage& image)
 {
     const std::vector<std::string> words = words_of(text);
     const auto word = [&](std::size_t i) { return number<int>(i < words.size() ? words[i] : "", 1); };
-    picture.data = {word(0), word(1), word(2), word(3)};
-    picture.full_width = word(5);
-    picture.full_height = word(6);
+    image.data = {word(0), word(1), word(2), word(3)};
+    image.full_width = word(5);
+    image.full_height = word(6);
 }
 
-void parse_line(std::string_view line, TextPicture& picture)
+void parse_line(std::string_view line, TextImage& image)
 {
     const std::string_view kind = take_until(line, ' ');
-    if (kind == "window") parse_window(line, picture);
-    if (kind == "floats") picture.floats = words_of(line);
-    if (kind == "words") picture.words = words_of(line);
-    if (kind == "levels") picture.integer_levels = number<std::size_t>(line);
+    if (kind == "window") parse_window(line, image);
+    if (kind == "floats") image.floats = words_of(line);
+    if (kind == "words") image.words = words_of(line);
+    if (kind == "levels") image.integer_levels = number<std::size_t>(line);
     if (kind != "int" && kind != "text" && kind != "float" && kind != "list") return;
     const std::string name(take_until(line, ' '));
-    if (kind == "int") picture.metadata.emplace_back(name, number<int>(line));
-    if (kind == "text") picture.metadata.emplace_back(name, unescaped(line));
-    if (kind == "float") picture.metadata.emplace_back(name, number<float>(line));
+    if (kind == "int") image.metadata.emplace_back(name, number<int>(line));
+    if (kind == "text") image.metadata.emplace_back(name, unescaped(line));
+    if (kind == "float") image.metadata.emplace_back(name, number<float>(line));
     if (kind != "list") return;
     std::vector<float> list;
     for (const std::string& word : words_of(line)) list.push_back(number<float>(word));
-    picture.metadata.emplace_back(name, std::move(list));
+    image.metadata.emplace_back(name, std::move(list));
 }
 
 std::string entry_text(const std::string& name, const MetadataValue& value)
@@ -102,12 +102,12 @@ std::string channels_text(std::string line, const std::vector<std::string>& name
 
 } // namespace
 
-std::size_t TextPicture::size() const
+std::size_t TextImage::size() const
 {
     return static_cast<std::size_t>(data.width) * static_cast<std::size_t>(data.height) * channels();
 }
 
-std::uint32_t TextPicture::value(std::size_t index) const
+std::uint32_t TextImage::value(std::size_t index) const
 {
     std::uint32_t result = 0;
     for (std::size_t i = 0; i < 4 && 4 * index + i < values.size(); ++i)
@@ -115,41 +115,41 @@ std::uint32_t TextPicture::value(std::size_t index) const
     return result;
 }
 
-TextPicture parse_picture(std::string_view text)
+TextImage parse_image(std::string_view text)
 {
-    TextPicture picture;
+    TextImage image;
     while (!text.empty()) {
         const std::string_view line = take_until(text, '\n');
         if (line == "pixels") {
-            picture.values = text;
+            image.values = text;
             break;
         }
-        parse_line(line, picture);
+        parse_line(line, image);
     }
-    return picture;
+    return image;
 }
 
-std::string picture_text(const TextPicture& picture)
+std::string image_text(const TextImage& image)
 {
-    const PixelRect& data = picture.data;
+    const PixelRect& data = image.data;
     std::string text = fmt::format("window {} {} {} {} of {} {}\n", data.x, data.y, data.width, data.height,
-                                   picture.full_width, picture.full_height);
-    text += channels_text("floats", picture.floats);
-    if (!picture.words.empty()) text += channels_text("words", picture.words);
-    if (picture.integer_levels > 0) text += fmt::format("levels {}\n", picture.integer_levels);
-    for (const auto& [name, value] : picture.metadata) text += entry_text(name, value);
-    return text + "pixels\n" + picture.values;
+                                   image.full_width, image.full_height);
+    text += channels_text("floats", image.floats);
+    if (!image.words.empty()) text += channels_text("words", image.words);
+    if (image.integer_levels > 0) text += fmt::format("levels {}\n", image.integer_levels);
+    for (const auto& [name, value] : image.metadata) text += entry_text(name, value);
+    return text + "pixels\n" + image.values;
 }
 
-std::vector<std::string_view> split_pictures(std::string_view text)
+std::vector<std::string_view> split_images(std::string_view text)
 {
-    std::vector<std::string_view> pictures;
-    for (std::size_t end = 0; (end = text.find(picture_separator)) != std::string_view::npos;) {
-        pictures.push_back(text.substr(0, end));
-        text.remove_prefix(end + picture_separator.size());
+    std::vector<std::string_view> images;
+    for (std::size_t end = 0; (end = text.find(image_separator)) != std::string_view::npos;) {
+        images.push_back(text.substr(0, end));
+        text.remove_prefix(end + image_separator.size());
     }
-    pictures.push_back(text);
-    return pictures;
+    images.push_back(text);
+    return images;
 }
 
 } // namespace plumb::fuzz

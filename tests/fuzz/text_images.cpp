@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 
-// Stands in for src/image/image_module.cpp: the door to pictures, with picture_text.h behind it instead of OpenImageIO, which
+// Stands in for src/image/image_module.cpp: the door to images, with image_text.h behind it instead of OpenImageIO, which
 // takes a quarter of a second to load, is not compiled for fuzzing, and has bugs of its own to be found by others.
 
-#include "fuzz/picture_text.h"
+#include "fuzz/image_text.h"
 #include "image/image_module.h"
 #include "plumb/base/error.h"
 
@@ -40,17 +40,17 @@ void check(const PixelRect& data, std::size_t channels)
         throw std::bad_alloc();
 }
 
-TextPicture read_text_picture(const std::string& name)
+TextImage read_text_image(const std::string& name)
 {
     std::ifstream file(name, std::ios::binary);
-    TextPicture picture = parse_picture(std::string(std::istreambuf_iterator<char>(file), {}));
-    check(picture.data, picture.channels());
-    return picture;
+    TextImage image = parse_image(std::string(std::istreambuf_iterator<char>(file), {}));
+    check(image.data, image.channels());
+    return image;
 }
 
-std::vector<unsigned char> bytes_of(const TextPicture& picture)
+std::vector<unsigned char> bytes_of(const TextImage& image)
 {
-    const std::string text = picture_text(picture);
+    const std::string text = image_text(image);
     return {text.begin(), text.end()};
 }
 
@@ -59,10 +59,10 @@ void append(std::string& values, std::uint32_t value)
     for (int i = 0; i < 4; ++i) values += static_cast<char>(value >> 8 * i & 0xff);
 }
 
-std::size_t number_of(const std::string& channel, const TextPicture& picture)
+std::size_t number_of(const std::string& channel, const TextImage& image)
 {
-    std::vector<std::string> all = picture.floats;
-    all.insert(all.end(), picture.words.begin(), picture.words.end());
+    std::vector<std::string> all = image.floats;
+    all.insert(all.end(), image.words.begin(), image.words.end());
     const auto found = std::find(all.begin(), all.end(), channel);
     if (found == all.end()) throw Error("it lacks the channel " + channel);
     return static_cast<std::size_t>(found - all.begin());
@@ -79,57 +79,50 @@ public:
 
     std::optional<ByteImage> read_bytes(const std::string&) const override { return std::nullopt; }
 
-    DecodedPicture read(const std::string& name) const override
+    DecodedImage read(const std::string& name) const override
     {
-        const TextPicture text = read_text_picture(name);
-        DecodedPicture picture;
-        picture.data = text.data;
-        picture.full_width = text.full_width;
-        picture.full_height = text.full_height;
-        picture.channels = text.floats;
-        picture.channels.insert(picture.channels.end(), text.words.begin(), text.words.end());
-        picture.integer_levels =
+        const TextImage text = read_text_image(name);
+        DecodedImage image;
+        image.data = text.data;
+        image.full_width = text.full_width;
+        image.full_height = text.full_height;
+        image.channels = text.floats;
+        image.channels.insert(image.channels.end(), text.words.begin(), text.words.end());
+        image.integer_levels =
             text.integer_levels == 256 || text.integer_levels == 65536 ? text.integer_levels : 0;
-        picture.metadata = text.metadata;
-        picture.buffer = std::make_unique<Values>(text.size());
+        image.metadata = text.metadata;
+        image.buffer = std::make_unique<Values>(text.size());
         for (std::size_t i = 0; i < text.size(); ++i) {
             const std::uint32_t value = text.value(i);
-            const std::size_t levels = picture.integer_levels;
-            picture.buffer->pixels()[i] =
+            const std::size_t levels = image.integer_levels;
+            image.buffer->pixels()[i] =
                 levels > 0 ? static_cast<float>(value % levels) / static_cast<float>(levels - 1)
                            : std::bit_cast<float>(value);
         }
-        return picture;
+        return image;
     }
 
-    std::vector<unsigned char> encode(const PictureFile& picture) const override
+    std::vector<unsigned char> encode(const ImageFile& image) const override
     {
-        TextPicture text{picture.data,
-                         picture.full_width,
-                         picture.full_height,
-                         picture.channels,
-                         {},
-                         0,
-                         picture.metadata,
-                         {}};
-        text.integer_levels = picture.bytes ? 256 : 0;
+        TextImage text{image.data, image.full_width, image.full_height, image.channels, {}, 0, image.metadata,
+                       {}};
+        text.integer_levels = image.bytes ? 256 : 0;
         const std::size_t channels = text.channels();
-        const std::size_t apart =
-            picture.floats ? static_cast<std::size_t>(picture.floats_per_pixel) : channels;
+        const std::size_t apart = image.floats ? static_cast<std::size_t>(image.floats_per_pixel) : channels;
         for (std::size_t i = 0; i < text.size(); ++i) {
             const std::size_t at = i / channels * apart + i % channels;
             append(text.values,
-                   picture.bytes ? picture.bytes[at] : std::bit_cast<std::uint32_t>(picture.floats[at]));
+                   image.bytes ? image.bytes[at] : std::bit_cast<std::uint32_t>(image.floats[at]));
         }
         return bytes_of(text);
     }
 
     std::vector<unsigned char> encode_words(const WordImage& image, const FillRows& fill) const override
     {
-        TextPicture text{image.data,          image.full_width,
-                         image.full_height,   image.float_channels,
-                         image.word_channels, 0,
-                         image.metadata,      {}};
+        TextImage text{image.data,          image.full_width,
+                       image.full_height,   image.float_channels,
+                       image.word_channels, 0,
+                       image.metadata,      {}};
         std::vector<std::uint32_t> rows(text.size());
         fill(image.data.y, image.data.height, rows);
         for (const std::uint32_t value : rows) append(text.values, value);
@@ -138,7 +131,7 @@ public:
 
     void read_words(const std::string& name, const ChooseChannels& choose, const UseRow& use) const override
     {
-        const TextPicture text = read_text_picture(name);
+        const TextImage text = read_text_image(name);
         const WordImage image{text.data,   text.full_width, text.full_height,
                               text.floats, text.words,      text.metadata};
         last_read = {choose(image), {}};

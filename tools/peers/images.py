@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Pictures as arrays (height, width, 3), and as the files that `renderer compare` reads."""
+"""Images as arrays (height, width, 3), and as the files that `renderer compare` reads."""
 
 import json
 import subprocess
@@ -15,9 +15,9 @@ def read(path):
     return np.stack([channels[name].pixels for name in CHANNELS], axis=2).astype(np.float64)
 
 
-def write(path, picture, variance=None, replicates=0):
-    """variance: of the picture, which is the mean of so many replicates."""
-    channels = {name: np.ascontiguousarray(picture[:, :, i], dtype=np.float32) for i, name in enumerate(CHANNELS)}
+def write(path, image, variance=None, replicates=0):
+    """variance: of the image, which is the mean of so many replicates."""
+    channels = {name: np.ascontiguousarray(image[:, :, i], dtype=np.float32) for i, name in enumerate(CHANNELS)}
     header = {"compression": OpenEXR.ZIP_COMPRESSION, "type": OpenEXR.scanlineimage}
     if variance is not None:
         for i, name in enumerate(CHANNELS):
