@@ -19,12 +19,12 @@ using Pair = ImagePair;
 // Changes of one kind: the one with the smallest difference that agrees is named.
 struct Change {
     std::string text; // behind "A "
-    std::function<Pair(const Image&, const Image&)> apply;
+    std::function<Pair(const ComparedImage&, const ComparedImage&)> apply;
 };
 using Group = std::vector<Change>;
 
 // A with the pixels in another order.
-Pair reorder(const Image& a, const Image& b, bool turns_x, bool turns_y)
+Pair reorder(const ComparedImage& a, const ComparedImage& b, bool turns_x, bool turns_y)
 {
     Pair pair{a, b};
     const std::size_t width = static_cast<std::size_t>(a.window.width);
@@ -45,7 +45,7 @@ Pair reorder(const Image& a, const Image& b, bool turns_x, bool turns_y)
     return pair;
 }
 
-Pair swap_channels(const Image& a, const Image& b, std::size_t first, std::size_t second)
+Pair swap_channels(const ComparedImage& a, const ComparedImage& b, std::size_t first, std::size_t second)
 {
     Pair pair{a, b};
     for (std::size_t i = 0; i + 2 < a.values.size(); i += 3) {
@@ -55,7 +55,7 @@ Pair swap_channels(const Image& a, const Image& b, std::size_t first, std::size_
     return pair;
 }
 
-Pair scale(const Image& a, const Image& b, double factor)
+Pair scale(const ComparedImage& a, const ComparedImage& b, double factor)
 {
     Pair pair{a, b};
     for (float& value : pair.a.values) value = static_cast<float>(factor * static_cast<double>(value));
@@ -75,7 +75,7 @@ double decode_srgb(double value)
 }
 
 template <class Decode>
-void decode(Image& image, Decode curve)
+void decode(ComparedImage& image, Decode curve)
 {
     for (float& value : image.values)
         value = std::copysign(static_cast<float>(curve(std::abs(static_cast<double>(value)))), value);
@@ -85,7 +85,7 @@ void decode(Image& image, Decode curve)
 template <class Decode>
 Change decoded(const std::string& text, bool of_a, Decode curve)
 {
-    return {text, [of_a, curve](const Image& a, const Image& b) {
+    return {text, [of_a, curve](const ComparedImage& a, const ComparedImage& b) {
                 Pair pair{a, b};
                 decode(of_a ? pair.a : pair.b, curve);
                 return pair;
@@ -93,7 +93,7 @@ Change decoded(const std::string& text, bool of_a, Decode curve)
 }
 
 // The factor that makes the sums over all pixels and channels equal.
-std::optional<double> exposure(const Image& a, const Image& b)
+std::optional<double> exposure(const ComparedImage& a, const ComparedImage& b)
 {
     double sum_a = 0.0;
     double sum_b = 0.0;
@@ -107,18 +107,20 @@ std::optional<double> exposure(const Image& a, const Image& b)
     return factor;
 }
 
-std::vector<Group> all_changes(const Image& a, const Image& b)
+std::vector<Group> all_changes(const ComparedImage& a, const ComparedImage& b)
 {
     std::vector<Group> groups;
     const auto turned = [](const char* text, bool x, bool y) {
-        return Change{text, [x, y](const Image& of, const Image& other) { return reorder(of, other, x, y); }};
+        return Change{text, [x, y](const ComparedImage& of, const ComparedImage& other) {
+                          return reorder(of, other, x, y);
+                      }};
     };
     groups.push_back({turned("mirrored left to right", true, false),
                       turned("turned upside down", false, true),
                       turned("rotated by 180 degrees", true, true)});
     if (a.channels.size() == 3) {
         const auto swapped = [](const char* text, std::size_t first, std::size_t second) {
-            return Change{text, [first, second](const Image& of, const Image& other) {
+            return Change{text, [first, second](const ComparedImage& of, const ComparedImage& other) {
                               return swap_channels(of, other, first, second);
                           }};
         };
@@ -132,17 +134,19 @@ std::vector<Group> all_changes(const Image& a, const Image& b)
                       decoded("encoded as B, in sRGB,", false, decode_srgb),
                       decoded("encoded as B, with a gamma of 2.2,", false, gamma)});
     if (const auto factor = exposure(a, b))
-        groups.push_back(
-            {{fmt::format("times {:.4g}", *factor),
-              [factor](const Image& of, const Image& other) { return scale(of, other, *factor); }}});
+        groups.push_back({{fmt::format("times {:.4g}", *factor),
+                           [factor](const ComparedImage& of, const ComparedImage& other) {
+                               return scale(of, other, *factor);
+                           }}});
     for (const int step : {2, 1}) {
         Group shifts;
         for (int y = -step; y <= step; y += step) {
             for (int x = -step; x <= step; x += step) {
                 if (x == 0 && y == 0) continue;
-                shifts.push_back({shift_text(x, y), [x, y](const Image& of, const Image& other) {
-                                      return shift(of, other, x, y);
-                                  }});
+                shifts.push_back(
+                    {shift_text(x, y), [x, y](const ComparedImage& of, const ComparedImage& other) {
+                         return shift(of, other, x, y);
+                     }});
             }
         }
         groups.push_back(std::move(shifts));
@@ -150,7 +154,7 @@ std::vector<Group> all_changes(const Image& a, const Image& b)
     return groups;
 }
 
-double mean_difference(const Image& a, const Image& b)
+double mean_difference(const ComparedImage& a, const ComparedImage& b)
 {
     double sum = 0.0;
     double count = 0.0;
@@ -165,8 +169,8 @@ double mean_difference(const Image& a, const Image& b)
 
 } // namespace
 
-std::optional<Alignment> find_alignment(const Image& a, const Image& b, const CompareSettings& options,
-                                        bool found_by_shift_alone)
+std::optional<Alignment> find_alignment(const ComparedImage& a, const ComparedImage& b,
+                                        const CompareSettings& options, bool found_by_shift_alone)
 {
     std::vector<Group> groups = all_changes(a, b);
     int tried = 0;

@@ -13,14 +13,14 @@ namespace plumb {
 
 namespace {
 
-bool are_identical(const Image& a, const Image& b)
+bool are_identical(const ComparedImage& a, const ComparedImage& b)
 {
     return std::equal(a.values.begin(), a.values.end(), b.values.begin(), b.values.end(),
                       [](float x, float y) { return x == y || (std::isnan(x) && std::isnan(y)); });
 }
 
 // The colours for FLIP, which must be finite: black in both where one is not.
-std::vector<Color> finite_colors(const Image& image, const Image& other)
+std::vector<Color> finite_colors(const ComparedImage& image, const ComparedImage& other)
 {
     std::vector<Color> colors;
     colors.reserve(image.pixels());
@@ -29,7 +29,7 @@ std::vector<Color> finite_colors(const Image& image, const Image& other)
     return colors;
 }
 
-void add_flip(Comparison& comparison, const Image& a, const Image& b, FlipMode mode)
+void add_flip(Comparison& comparison, const ComparedImage& a, const ComparedImage& b, FlipMode mode)
 {
     if (mode == FlipMode::none) return;
     const auto flip = mode == FlipMode::ldr ? ldr_flip : hdr_flip;
@@ -53,7 +53,7 @@ Verdict find_outcome(const Comparison& comparison, const CompareSettings& option
     return !of_noise && !options.thresholds.empty() ? Verdict::passes : Verdict::undecided;
 }
 
-Comparison compare_images(Image a, Image b, const CompareSettings& options)
+Comparison compare_images(ComparedImage a, ComparedImage b, const CompareSettings& options)
 {
     check_comparable(a, b);
     a.is_exact = options.exact == Side::a;
@@ -93,8 +93,8 @@ Comparison compare_images(Image a, Image b, const CompareSettings& options)
 
 Comparison compare(const Estimate& a, const Estimate& b, const CompareSettings& settings)
 {
-    auto [image_a, image_b] = make_images(a.image, b.image, settings);
-    const auto take_facts = [](Image& image, const Estimate& one) {
+    auto [image_a, image_b] = make_compared_images(a.image, b.image, settings);
+    const auto take_facts = [](ComparedImage& image, const Estimate& one) {
         image.samples_per_pixel = one.samples_per_pixel;
         image.estimator = one.estimator;
         image.seed = one.seed;
@@ -106,7 +106,7 @@ Comparison compare(const Estimate& a, const Estimate& b, const CompareSettings& 
 
 Comparison compare(const Image& a, const Image& b, const CompareSettings& settings)
 {
-    auto [image_a, image_b] = make_images(a, b, settings);
+    auto [image_a, image_b] = make_compared_images(a, b, settings);
     return compare_images(std::move(image_a), std::move(image_b), settings);
 }
 

@@ -42,7 +42,7 @@ bool halves_hold(const std::vector<float>& values)
 }
 
 // From the variances of a sample, or from the means of the samples' squares.
-void to_variance_of_mean(Image& image, VarianceKind kind)
+void to_variance_of_mean(ComparedImage& image, VarianceKind kind)
 {
     const double samples = *image.samples_per_pixel;
     for (std::size_t i = 0; i < image.variances.size(); ++i) {
@@ -55,7 +55,7 @@ void to_variance_of_mean(Image& image, VarianceKind kind)
 }
 
 // The noise of red, green and blue may be correlated: the variance is at most the square of the weighted deviations' sum.
-void to_luminance(Image& image)
+void to_luminance(ComparedImage& image)
 {
     const Color weights = {luminance(Color(1.f, 0.f, 0.f)), luminance(Color(0.f, 1.f, 0.f)),
                            luminance(Color(0.f, 0.f, 1.f))};
@@ -75,7 +75,7 @@ void to_luminance(Image& image)
     image.variances = std::move(variances);
 }
 
-std::string size_text(const Image& image)
+std::string size_text(const ComparedImage& image)
 {
     const PixelRect& window = image.window;
     std::string text = fmt::format("{}x{} pixels", image.full_width, image.full_height);
@@ -86,18 +86,18 @@ std::string size_text(const Image& image)
 
 } // namespace
 
-Color Image::color(std::size_t pixel) const
+Color ComparedImage::color(std::size_t pixel) const
 {
     if (channels.size() == 1) return Color(value(pixel, 0));
     return {value(pixel, 0), value(pixel, 1), channels.size() > 2 ? value(pixel, 2) : 0.f};
 }
 
-bool Image::is_finite(std::size_t pixel) const
+bool ComparedImage::is_finite(std::size_t pixel) const
 {
     return plumb::is_finite(color(pixel));
 }
 
-bool Image::variance_is_known(std::size_t pixel) const
+bool ComparedImage::variance_is_known(std::size_t pixel) const
 {
     if (!knows_noise()) return false;
     for (std::size_t channel = 0; channel < channels.size(); ++channel) {
@@ -107,47 +107,47 @@ bool Image::variance_is_known(std::size_t pixel) const
     return true;
 }
 
-Image make_image(const Image& image, Side side, const CompareSettings& options)
+ComparedImage make_compared_image(const Image& image, Side side, const CompareSettings& options)
 {
     const NoiseFacts facts = noise_facts(image, options);
     const ChosenChannels chosen = choose_channels(image, side, options.layer, facts.samples.has_value());
-    Image image;
-    image.window = image.data_window();
-    image.full_width = image.full_width();
-    image.full_height = image.full_height();
-    image.channels = chosen.names;
-    image.values = read_channels(image, chosen.values);
-    image.samples_per_pixel = facts.samples;
-    image.estimator = estimator_of(image);
-    image.seed = header_text(image, "plumb:seed");
-    image.is_for_screens = !header_text(image, screen_mark).empty();
-    image.is_luminance = chosen.is_luminance;
-    image.is_half = halves_hold(image.values);
-    if (chosen.variances.empty()) return image;
+    ComparedImage compared;
+    compared.window = image.data_window();
+    compared.full_width = image.full_width();
+    compared.full_height = image.full_height();
+    compared.channels = chosen.names;
+    compared.values = read_channels(image, chosen.values);
+    compared.samples_per_pixel = facts.samples;
+    compared.estimator = estimator_of(image);
+    compared.seed = header_text(image, "plumb:seed");
+    compared.is_for_screens = !header_text(image, screen_mark).empty();
+    compared.is_luminance = chosen.is_luminance;
+    compared.is_half = halves_hold(compared.values);
+    if (chosen.variances.empty()) return compared;
 
     const VarianceKind kind = variance_kind(chosen, facts, options);
     if (kind != VarianceKind::of_mean && !facts.samples) {
-        image.noise =
+        compared.noise =
             fmt::format("none ({} without a number of samples: pass --spp N)", chosen.variance_name);
-        return image;
+        return compared;
     }
-    image.variances = read_channels(image, chosen.variances);
-    if (kind != VarianceKind::of_mean) to_variance_of_mean(image, kind);
-    if (chosen.contributing) image.contributing = read_channels(image, {*chosen.contributing});
-    image.noise = "variance channels";
+    compared.variances = read_channels(image, chosen.variances);
+    if (kind != VarianceKind::of_mean) to_variance_of_mean(compared, kind);
+    if (chosen.contributing) compared.contributing = read_channels(image, {*chosen.contributing});
+    compared.noise = "variance channels";
     if (facts.replicas) {
-        image.noise = fmt::format("{} replicas", *facts.replicas);
-        image.freedom = static_cast<double>(*facts.replicas - 1);
-        image.inflation = facts.inflation;
-        image.samples_per_pixel.reset();
+        compared.noise = fmt::format("{} replicas", *facts.replicas);
+        compared.freedom = static_cast<double>(*facts.replicas - 1);
+        compared.inflation = facts.inflation;
+        compared.samples_per_pixel.reset();
     } else if (kind != VarianceKind::of_mean) {
-        image.noise = fmt::format("{} of {} samples", chosen.variance_name, *facts.samples);
+        compared.noise = fmt::format("{} of {} samples", chosen.variance_name, *facts.samples);
     }
-    return image;
+    return compared;
 }
 
-std::pair<Image, Image> make_images(const Image& image_a, const Image& image_b,
-                                    const CompareSettings& options)
+std::pair<ComparedImage, ComparedImage> make_compared_images(const Image& image_a, const Image& image_b,
+                                                             const CompareSettings& options)
 {
     CompareSettings of_a = options;
     CompareSettings of_b = options;
@@ -156,25 +156,25 @@ std::pair<Image, Image> make_images(const Image& image_a, const Image& image_b,
     const bool is_of_colors = is_layer_of_colors(a_has ? image_a : image_b, options.layer);
     if (!options.layer.empty() && a_has != b_has && is_of_colors && has_colors(a_has ? image_b : image_a))
         (a_has ? of_b : of_a).layer.clear();
-    Image a = make_image(image_a, Side::a, of_a);
-    Image b = make_image(image_b, Side::b, of_b);
+    ComparedImage a = make_compared_image(image_a, Side::a, of_a);
+    ComparedImage b = make_compared_image(image_b, Side::b, of_b);
     if (of_a.layer != of_b.layer) a.channels = b.channels = {"R", "G", "B"};
     if (a.is_luminance && !b.is_luminance && b.channels.size() == 3) to_luminance(b);
     if (b.is_luminance && !a.is_luminance && a.channels.size() == 3) to_luminance(a);
     return {std::move(a), std::move(b)};
 }
 
-bool are_of_one_estimator(const Image& a, const Image& b)
+bool are_of_one_estimator(const ComparedImage& a, const ComparedImage& b)
 {
     return !a.estimator.empty() && a.estimator == b.estimator;
 }
 
-bool share_random_numbers(const Image& a, const Image& b)
+bool share_random_numbers(const ComparedImage& a, const ComparedImage& b)
 {
     return are_of_one_estimator(a, b) && !a.seed.empty() && a.seed == b.seed;
 }
 
-void check_comparable(const Image& a, const Image& b)
+void check_comparable(const ComparedImage& a, const ComparedImage& b)
 {
     if (size_text(a) != size_text(b))
         throw Error(

@@ -7,7 +7,7 @@
 
 namespace plumb {
 
-struct Image {
+struct ComparedImage {
     PixelRect window; // the pixels that exist
     int full_width = 0;
     int full_height = 0;
@@ -45,17 +45,18 @@ struct Image {
 
 // `side` names the image in messages. Channels: channel_names.h; the layer, variance_of and samples of the options
 // count. Throws Error if they are not there.
-Image make_image(const Image& image, Side side, const CompareSettings& options);
+ComparedImage make_compared_image(const Image& image, Side side, const CompareSettings& options);
 
 // Both, of which one may lack a layer of colours, or be in luminance only: then the other is taken likewise.
-std::pair<Image, Image> make_images(const Image& a, const Image& b, const CompareSettings& options);
+std::pair<ComparedImage, ComparedImage> make_compared_images(const Image& a, const Image& b,
+                                                             const CompareSettings& options);
 
 // The samples of both have one distribution.
-bool are_of_one_estimator(const Image& a, const Image& b);
+bool are_of_one_estimator(const ComparedImage& a, const ComparedImage& b);
 // And the same random numbers.
-bool share_random_numbers(const Image& a, const Image& b);
+bool share_random_numbers(const ComparedImage& a, const ComparedImage& b);
 
 // Of both images: the same channels, sizes and windows. Throws Error.
-void check_comparable(const Image& a, const Image& b);
+void check_comparable(const ComparedImage& a, const ComparedImage& b);
 
 } // namespace plumb

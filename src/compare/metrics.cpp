@@ -14,7 +14,7 @@ namespace {
 // Of dark references, so that a relative error means something there; usual since Rousselle et al. 2011.
 constexpr double relative_epsilon = 0.01;
 
-Vec2i place_of(const Image& image, std::size_t pixel)
+Vec2i place_of(const ComparedImage& image, std::size_t pixel)
 {
     const auto width = static_cast<std::size_t>(image.window.width);
     return {image.window.x + static_cast<int>(pixel % width),
@@ -23,7 +23,7 @@ Vec2i place_of(const Image& image, std::size_t pixel)
 
 } // namespace
 
-NonFinite count_non_finite(const Image& a, const Image& b)
+NonFinite count_non_finite(const ComparedImage& a, const ComparedImage& b)
 {
     NonFinite result;
     for (std::size_t i = 0; i < a.pixels(); ++i) {
@@ -36,7 +36,7 @@ NonFinite count_non_finite(const Image& a, const Image& b)
     return result;
 }
 
-Metrics measure(const Image& a, const Image& b)
+Metrics measure(const ComparedImage& a, const ComparedImage& b)
 {
     const std::size_t channels = a.channels.size();
     Metrics m;
@@ -74,7 +74,7 @@ Metrics measure(const Image& a, const Image& b)
     return m;
 }
 
-std::optional<NoiseCorrected> correct_for_noise(const Image& a, const Image& b)
+std::optional<NoiseCorrected> correct_for_noise(const ComparedImage& a, const ComparedImage& b)
 {
     if (!a.knows_noise() || !b.knows_noise()) return {};
     const std::size_t channels = a.channels.size();

@@ -7,8 +7,8 @@
 
 namespace plumb {
 
-NonFinite count_non_finite(const Image& a, const Image& b);
-Metrics measure(const Image& a, const Image& b); // without FLIP
-std::optional<NoiseCorrected> correct_for_noise(const Image& a, const Image& b);
+NonFinite count_non_finite(const ComparedImage& a, const ComparedImage& b);
+Metrics measure(const ComparedImage& a, const ComparedImage& b); // without FLIP
+std::optional<NoiseCorrected> correct_for_noise(const ComparedImage& a, const ComparedImage& b);
 
 } // namespace plumb

@@ -3,7 +3,7 @@
 
 namespace plumb {
 
-PairedPixels::PairedPixels(const Image& image_a, const Image& image_b, std::size_t channel,
+PairedPixels::PairedPixels(const ComparedImage& image_a, const ComparedImage& image_b, std::size_t channel,
                            const std::vector<char>& which)
     : width(image_a.window.width), height(image_a.window.height), counted(which)
 {
@@ -11,7 +11,7 @@ PairedPixels::PairedPixels(const Image& image_a, const Image& image_b, std::size
     for (std::vector<double>* numbers : {&differences, &a, &b}) numbers->assign(pixels, 0.0);
     black_a.assign(pixels, 1);
     black_b.assign(pixels, 1);
-    const Image* known = image_a.variances.empty() ? &image_b : &image_a;
+    const ComparedImage* known = image_a.variances.empty() ? &image_b : &image_a;
     if (known->variances.empty()) known = nullptr;
     if (known) variances.assign(pixels, 0.0);
     for (std::size_t i = 0; i < pixels; ++i) {

@@ -23,7 +23,8 @@ struct PairedPixels {
     std::vector<char> black_a;     // no channel has light
     std::vector<char> black_b;
 
-    PairedPixels(const Image& a, const Image& b, std::size_t channel, const std::vector<char>& counted);
+    PairedPixels(const ComparedImage& a, const ComparedImage& b, std::size_t channel,
+                 const std::vector<char>& counted);
 
     // The variance that the second differences of d along x and y show, of independent pixels: what is smooth is not in
     // it. One a pixel; negative where a neighbour is missing.

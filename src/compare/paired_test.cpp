@@ -51,7 +51,7 @@ constexpr int least_hidden_square = 16;
 
 class PairedTester {
 public:
-    PairedTester(const Image& a, const Image& b, const CompareSettings& options)
+    PairedTester(const ComparedImage& a, const ComparedImage& b, const CompareSettings& options)
         : a_(a),
           b_(b),
           options_(options),
@@ -434,8 +434,8 @@ private:
         }
     }
 
-    const Image& a_;
-    const Image& b_;
+    const ComparedImage& a_;
+    const ComparedImage& b_;
     const CompareSettings& options_;
     std::vector<char> counted_; // finite in both
     std::vector<char> differs_; // in a square that was rejected
@@ -451,7 +451,7 @@ private:
 
 } // namespace
 
-Significance test_paired(const Image& a, const Image& b, const CompareSettings& options)
+Significance test_paired(const ComparedImage& a, const ComparedImage& b, const CompareSettings& options)
 {
     return PairedTester(a, b, options).run();
 }

@@ -9,6 +9,6 @@
 namespace plumb {
 
 // At most one of the images knows its noise.
-Significance test_paired(const Image& a, const Image& b, const CompareSettings& options);
+Significance test_paired(const ComparedImage& a, const ComparedImage& b, const CompareSettings& options);
 
 } // namespace plumb

@@ -39,7 +39,7 @@ std::vector<double> squared_differences(const ImagePair& pair, const Squares& sq
 
 } // namespace
 
-std::optional<Alignment> test_shifts(const Image& a, const Image& b)
+std::optional<Alignment> test_shifts(const ComparedImage& a, const ComparedImage& b)
 {
     const Squares squares(square_side, a.window);
     std::optional<Alignment> best;

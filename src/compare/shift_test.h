@@ -10,6 +10,6 @@ namespace plumb {
 
 // The shift of A with which the squared differences are smaller than without it, most beyond the noise; p: of any of
 // those that are tried. Nothing: too few squares of 16x16 pixels.
-std::optional<Alignment> test_shifts(const Image& a, const Image& b);
+std::optional<Alignment> test_shifts(const ComparedImage& a, const ComparedImage& b);
 
 } // namespace plumb

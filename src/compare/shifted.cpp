@@ -10,7 +10,7 @@ namespace {
 constexpr float nowhere = std::numeric_limits<float>::quiet_NaN();
 
 // Weighted sums over neighbours along x and y; outside of the image there is nowhere.
-std::vector<float> filtered(const Image& image, const std::vector<float>& weights_x, int first_x,
+std::vector<float> filtered(const ComparedImage& image, const std::vector<float>& weights_x, int first_x,
                             const std::vector<float>& weights_y, int first_y)
 {
     const int width = image.window.width;
@@ -52,13 +52,13 @@ void leave_out_the_same(ImagePair& pair)
 
 } // namespace
 
-void drop_noise(Image& image)
+void drop_noise(ComparedImage& image)
 {
     image.variances.clear();
     image.contributing.clear();
 }
 
-ImagePair shift(const Image& a, const Image& b, int half_x, int half_y)
+ImagePair shift(const ComparedImage& a, const ComparedImage& b, int half_x, int half_y)
 {
     ImagePair pair{a, b};
     const bool is_whole = half_x % 2 == 0 && half_y % 2 == 0;
@@ -73,7 +73,7 @@ ImagePair shift(const Image& a, const Image& b, int half_x, int half_y)
     const auto first_b = [](int half) { return half % 2 == 0 ? 0 : -2; };
     pair.a.values = filtered(a, weights_a(half_x), first_a(half_x), weights_a(half_y), first_a(half_y));
     if (is_whole) {
-        Image noise = a;
+        ComparedImage noise = a;
         if (!a.variances.empty()) {
             noise.values = a.variances;
             pair.a.variances = filtered(noise, {1.f}, half_x / 2, {1.f}, half_y / 2);
@@ -88,7 +88,7 @@ ImagePair shift(const Image& a, const Image& b, int half_x, int half_y)
     return pair;
 }
 
-ImagePair unshifted(const Image& a, const Image& b, int half_x, int half_y)
+ImagePair unshifted(const ComparedImage& a, const ComparedImage& b, int half_x, int half_y)
 {
     ImagePair pair = shift(a, b, half_x, half_y);
     const bool is_whole = half_x % 2 == 0 && half_y % 2 == 0;

@@ -27,7 +27,7 @@ enum class State : std::uint8_t { usable, unusable, differs };
 
 class Tester {
 public:
-    Tester(const Image& a, const Image& b, const CompareSettings& options)
+    Tester(const ComparedImage& a, const ComparedImage& b, const CompareSettings& options)
         : a_(a), b_(b), options_(options), states_(a.pixels(), State::usable), covered_(a.pixels(), false)
     {
         sampling_ = {a.samples_per_pixel, b.samples_per_pixel, a.is_exact, b.is_exact,
@@ -76,7 +76,7 @@ private:
     std::vector<UnitSums> sums(const Squares& squares, std::size_t channel) const
     {
         std::vector<UnitSums> result(squares.count());
-        const auto contributing = [](const Image& image, std::size_t pixel) {
+        const auto contributing = [](const ComparedImage& image, std::size_t pixel) {
             return static_cast<double>(image.contributing.empty() ? infinity : image.contributing[pixel]);
         };
         std::size_t i = 0;
@@ -224,8 +224,8 @@ private:
         }
     }
 
-    const Image& a_;
-    const Image& b_;
+    const ComparedImage& a_;
+    const ComparedImage& b_;
     const CompareSettings& options_;
     Sampling sampling_;
     std::vector<State> states_;
@@ -235,7 +235,7 @@ private:
 
 } // namespace
 
-Significance test_significance(const Image& a, const Image& b, const CompareSettings& options)
+Significance test_significance(const ComparedImage& a, const ComparedImage& b, const CompareSettings& options)
 {
     return Tester(a, b, options).run();
 }

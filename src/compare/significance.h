@@ -7,6 +7,7 @@
 
 namespace plumb {
 
-Significance test_significance(const Image& a, const Image& b, const CompareSettings& options);
+Significance test_significance(const ComparedImage& a, const ComparedImage& b,
+                               const CompareSettings& options);
 
 } // namespace plumb

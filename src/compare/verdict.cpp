@@ -15,12 +15,12 @@ namespace {
 constexpr double share_of_shifts = 0.05; // of the chance of a false alarm
 
 // Rounded to integers and clipped at 1: the mean of noisy pixels is not that of the light.
-bool is_unfit(const Image& image)
+bool is_unfit(const ComparedImage& image)
 {
     return image.is_for_screens && !image.is_exact && !image.knows_noise();
 }
 
-std::string hidden_text(const Image& a, const DifferenceNoise& noise)
+std::string hidden_text(const ComparedImage& a, const DifferenceNoise& noise)
 {
     if (!noise.reach)
         return "A - B is correlated over more than 10 pixels, as after a denoiser or a wide filter; pass "
@@ -34,7 +34,8 @@ std::string hidden_text(const Image& a, const DifferenceNoise& noise)
 }
 
 // What the tests of sums do not see: the differences at an edge have either sign.
-void find_shift(const Image& a, const Image& b, const CompareSettings& options, Significance& result)
+void find_shift(const ComparedImage& a, const ComparedImage& b, const CompareSettings& options,
+                Significance& result)
 {
     result.shift = test_shifts(a, b);
     if (!result.shift) return;
@@ -49,12 +50,12 @@ void find_shift(const Image& a, const Image& b, const CompareSettings& options, 
 
 } // namespace
 
-std::uint64_t tolerated_pixels(const Image& a, const CompareSettings& options)
+std::uint64_t tolerated_pixels(const ComparedImage& a, const CompareSettings& options)
 {
     return static_cast<std::uint64_t>(static_cast<double>(a.pixels()) * options.fail_percent / 100.0);
 }
 
-Significance find_significance(const Image& a, const Image& b, const CompareSettings& options)
+Significance find_significance(const ComparedImage& a, const ComparedImage& b, const CompareSettings& options)
 {
     Significance result;
     const auto without_tests = [&result](std::optional<Verdict> verdict, std::string reason) {

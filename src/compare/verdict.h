@@ -7,7 +7,8 @@
 
 namespace plumb {
 
-std::uint64_t tolerated_pixels(const Image& a, const CompareSettings& options);
-Significance find_significance(const Image& a, const Image& b, const CompareSettings& options);
+std::uint64_t tolerated_pixels(const ComparedImage& a, const CompareSettings& options);
+Significance find_significance(const ComparedImage& a, const ComparedImage& b,
+                               const CompareSettings& options);
 
 } // namespace plumb

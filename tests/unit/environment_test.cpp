@@ -29,16 +29,16 @@ Color texel(int x, int y)
 }
 
 // The images under test: all texels different; one bright texel in the dark, in a corner; all black but a row.
-enum class Image { varied, one_texel, one_row };
+enum class Texels { varied, one_texel, one_row };
 
-Image image(Image which)
+Image image(Texels which)
 {
     Image image(width, height);
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
-            const bool lit = which == Image::varied ||
-                             (which == Image::one_texel && x == width - 1 && y == 0) ||
-                             (which == Image::one_row && y == 2);
+            const bool lit = which == Texels::varied ||
+                             (which == Texels::one_texel && x == width - 1 && y == 0) ||
+                             (which == Texels::one_row && y == 2);
             const Color color = lit ? texel(x, y) : Color(0.f);
             for (int c = 0; c < 3; ++c) image.pixel(x, y)[c] = color[c];
         }
@@ -53,7 +53,7 @@ ParamsBuilder environment_params(bool flipped)
     return params;
 }
 
-std::unique_ptr<Emitter> environment(Image which, bool flipped, const Color& radiance = Color(1.f))
+std::unique_ptr<Emitter> environment(Texels which, bool flipped, const Color& radiance = Color(1.f))
 {
     const TempDirectory directory;
     write_image(directory / "sky.exr", image(which));
@@ -102,7 +102,7 @@ void check_color(const Color& a, const Color& b)
 TEST_CASE("an environment image starts at +y, and its columns run from +x over +z", "[unit][environment]")
 {
     const Color tint(2.f, 1.f, 0.5f);
-    const auto emitter = environment(Image::varied, false, tint);
+    const auto emitter = environment(Texels::varied, false, tint);
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
             const double phi = 2.0 * pi_d * (x + 0.5) / width;
@@ -118,7 +118,7 @@ TEST_CASE("an environment image starts at +y, and its columns run from +x over +
 
 TEST_CASE("in Zaragoza's dialect an environment image runs the other way", "[unit][environment]")
 {
-    const auto emitter = environment(Image::varied, true);
+    const auto emitter = environment(Texels::varied, true);
     for (int y = 1; y < height; ++y) // row 0 is at the poles
         for (int x = 0; x < width; ++x) {
             const double phi = 2.0 * pi_d * (1.0 - static_cast<double>(x) / width);
@@ -134,7 +134,7 @@ TEST_CASE("the density of environment light integrates to 1, and its power is th
           "[unit][environment]")
 {
     const bool flipped = GENERATE(false, true);
-    const Image which = GENERATE(Image::varied, Image::one_texel, Image::one_row);
+    const Texels which = GENERATE(Texels::varied, Texels::one_texel, Texels::one_row);
     const auto emitter = environment(which, flipped);
     CHECK(integral([&](const Vec3f& wi) { return seen(*emitter, wi).pdf; }) == Approx(1.0).epsilon(1e-5));
 
@@ -148,7 +148,7 @@ TEST_CASE("the density of environment light integrates to 1, and its power is th
 TEST_CASE("environment light can be sampled wherever it is not black", "[unit][environment]")
 {
     const bool flipped = GENERATE(false, true);
-    const Image which = GENERATE(Image::varied, Image::one_texel, Image::one_row);
+    const Texels which = GENERATE(Texels::varied, Texels::one_texel, Texels::one_row);
     const auto emitter = environment(which, flipped);
     TestRandom random;
     int lit = 0;
@@ -164,7 +164,7 @@ TEST_CASE("environment light can be sampled wherever it is not black", "[unit][e
 TEST_CASE("samples of environment light agree with evaluate", "[unit][environment]")
 {
     const bool flipped = GENERATE(false, true);
-    const Image which = GENERATE(Image::varied, Image::one_texel, Image::one_row);
+    const Texels which = GENERATE(Texels::varied, Texels::one_texel, Texels::one_row);
     const auto emitter = environment(which, flipped);
     CHECK(emitter->is_infinite());
     CHECK_FALSE(emitter->is_delta());
@@ -189,7 +189,7 @@ TEST_CASE("samples of environment light agree with evaluate", "[unit][environmen
 TEST_CASE("environment light is sampled with the density it claims", "[statistical][environment]")
 {
     const bool flipped = GENERATE(false, true);
-    const Image which = GENERATE(Image::varied, Image::one_texel, Image::one_row);
+    const Texels which = GENERATE(Texels::varied, Texels::one_texel, Texels::one_row);
     const auto emitter = environment(which, flipped);
     const double level = test::sidak_level(test::significance, 12);
 

@@ -11,16 +11,16 @@ using namespace plumb;
 
 namespace {
 
-using Image = std::vector<double>;
+using Values = std::vector<double>;
 
-Rounds rounds_of(const std::vector<double>& seconds, const std::vector<Image>& images)
+Rounds rounds_of(const std::vector<double>& seconds, const std::vector<Values>& images)
 {
-    Image mean(images[0].size(), 0.0);
-    for (const Image& image : images)
+    Values mean(images[0].size(), 0.0);
+    for (const Values& image : images)
         for (std::size_t i = 0; i < mean.size(); ++i)
             mean[i] += image[i] / static_cast<double>(images.size());
     Rounds rounds{seconds, {}};
-    for (const Image& image : images) {
+    for (const Values& image : images) {
         MeanAndVariance squares;
         for (std::size_t i = 0; i < mean.size(); ++i) squares.add(sqr(image[i] - mean[i]));
         rounds.deviations.push_back(squares.mean());
@@ -29,7 +29,7 @@ Rounds rounds_of(const std::vector<double>& seconds, const std::vector<Image>& i
 }
 
 // Time times variance of the rounds but one.
-double cost_without(const std::vector<double>& seconds, const Image& values, std::size_t left_out)
+double cost_without(const std::vector<double>& seconds, const Values& values, std::size_t left_out)
 {
     MeanAndVariance time, value;
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -45,7 +45,7 @@ double cost_without(const std::vector<double>& seconds, const Image& values, std
 TEST_CASE("the efficiency and its interval are those of the jackknife, round by round", "[unit][race]")
 {
     const std::vector<double> seconds_a = {1.0, 1.5, 1.25, 3.0, 1.0}, seconds_b = {2.0, 2.5, 2.0, 4.0, 2.25};
-    const Image a = {1.0, 2.0, 4.0, 8.0, 16.0}, b = {0.0, 3.0, 1.0, 5.0, 2.0}; // one pixel, five rounds
+    const Values a = {1.0, 2.0, 4.0, 8.0, 16.0}, b = {0.0, 3.0, 1.0, 5.0, 2.0}; // one pixel, five rounds
     const Rounds rounds_a = rounds_of(seconds_a, {{1.0}, {2.0}, {4.0}, {8.0}, {16.0}});
     const Rounds rounds_b = rounds_of(seconds_b, {{0.0}, {3.0}, {1.0}, {5.0}, {2.0}});
     CHECK(rounds_a.mean_seconds() == Approx(1.55));
@@ -70,12 +70,12 @@ TEST_CASE("95 of 100 intervals hold the efficiency", "[unit][race]")
     int held = 0;
     for (int trial = 0; trial < trials; ++trial) {
         std::vector<double> seconds[2];
-        std::vector<Image> images[2];
+        std::vector<Values> images[2];
         for (int round = 0; round < count; ++round) {
             const double load = random.between(1.0, 2.0); // of the machine, in that round
             for (int i = 0; i < 2; ++i) {
                 seconds[i].push_back(load * random.between(0.9, 1.1));
-                Image image;
+                Values image;
                 for (int pixel = 0; pixel < pixels; ++pixel)
                     image.push_back((1.0 + i) * random.between(-1.0, 1.0));
                 images[i].push_back(image);
