@@ -123,7 +123,7 @@ Image difference_image(const Image& image_a, const Image& image_b, const std::st
 {
     CompareSettings options;
     options.layer = layer;
-    const auto [a, b] = make_images(image_a, image_b, options);
+    const auto [a, b] = make_compared_images(image_a, image_b, options);
     check_comparable(a, b);
     std::vector<float> errors;
     errors.reserve(a.pixels());

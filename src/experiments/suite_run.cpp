@@ -262,7 +262,8 @@ private:
             throw Error(fmt::format("cannot compare A, '{}', with B, '{}': {}", result.image,
                                     entry.reference.string(), error.what()));
         }
-        result.verdict = verdict_of(result.comparison->outcome);
+        result.state = JobState::compared;
+        result.verdict = result.comparison->verdict;
         const std::string difference = difference_of(result.image);
         write_image(difference, difference_image(image, reference));
         result.difference = difference;

@@ -144,11 +144,11 @@ auto read_file(const std::filesystem::path& path, const Read& read)
 Image read_image(const std::filesystem::path& path, bool decode_srgb)
 {
     // As the friend of Image.
-    const auto make = [](DecodedImage& image) {
-        Image image(
-            std::make_unique<Image::Impl>(Image::Impl{image.data, image.full_width, image.full_height,
-                                                      std::move(image.channels), std::move(image.buffer)}));
-        image.metadata = std::move(image.metadata);
+    const auto make = [](DecodedImage& decoded) {
+        Image image(std::make_unique<Image::Impl>(
+            Image::Impl{decoded.data, decoded.full_width, decoded.full_height, std::move(decoded.channels),
+                        std::move(decoded.buffer)}));
+        image.metadata = std::move(decoded.metadata);
         return image;
     };
     return read_file(path, [&](const ImageModule& module, const std::string& name) {
