@@ -14,7 +14,7 @@ namespace {
 
 std::string_view verdict_of(Verdict verdict)
 {
-    switch (outcome) {
+    switch (verdict) {
     case Verdict::passes: return "agree";
     case Verdict::differs: return "differ";
     case Verdict::undecided: return "undecided";

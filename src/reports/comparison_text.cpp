@@ -166,7 +166,7 @@ std::string p_text(double p, int digits)
 
 std::string_view verdict_word(Verdict verdict)
 {
-    switch (outcome) {
+    switch (verdict) {
     case Verdict::passes: return "passes";
     case Verdict::differs: return "differs";
     case Verdict::undecided: return "undecided";
@@ -187,7 +187,7 @@ std::string comparison_text(const Comparison& comparison, const CompareSettings&
 
 int exit_code_of(Verdict verdict)
 {
-    switch (outcome) {
+    switch (verdict) {
     case Verdict::passes: return exit_code::done;
     case Verdict::differs: return exit_code::differs;
     case Verdict::undecided: return exit_code::undecided;
