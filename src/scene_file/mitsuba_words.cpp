@@ -308,9 +308,9 @@ constexpr Preset presets[] = {
 };
 
 constexpr Refusal refusals[] = {
-    {"medium", "", vacuum},
-    {"volume", "", vacuum},
-    {"phase", "", vacuum},
+    {"medium", "", vacuum, true},
+    {"volume", "", vacuum, true},
+    {"phase", "", vacuum, true},
     {"blackbody", "", "write <spectrum type=\"blackbody\" name=\"...\">"},
     {"srgb", "", "write it as a linear <rgb>"},
     {"shape", "sdfgrid", as_mesh},

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "scene_file/nori_words.h"
 
+#include "scene_file/fork_words.h"
+
 #include <fmt/format.h>
 
 namespace plumb {
@@ -33,8 +35,12 @@ constexpr Ignored ignored[] = {
     {"camera", "perspective_depth", "focallength"},
 };
 
-constexpr Vocabulary nori = {
-    .name = "nori", .types = types, .params = params, .presets = presets, .ignored = ignored};
+constexpr Vocabulary nori = {.name = "nori",
+                             .types = types,
+                             .params = params,
+                             .presets = presets,
+                             .ignored = ignored,
+                             .base = &fork_words};
 
 constexpr Preset mcgill_presets[] = {
     {"emitter", "area", "color", "radiance", "0 0 0"},
