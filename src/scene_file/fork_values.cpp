@@ -31,7 +31,7 @@ bool to_fraction(Element& parameter, Diagnostics& diagnostics)
     const double limited = std::clamp(*number, 0.0, 1.0);
     if (limited == *number) return true;
     diagnostics.warning(parameter.value_place(*value),
-                        fmt::format("{} is {} here, as in [0, 1]", parameter.written_name(), limited));
+                        fmt::format("{} must be in [0, 1], not {}; {} is used", parameter.written_name(), *number, limited));
     set_attribute(parameter, "value", fmt::format("{}", limited));
     return true;
 }

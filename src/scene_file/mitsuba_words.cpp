@@ -279,6 +279,7 @@ constexpr Preset presets[] = {
     {"shape", "sphere", "boolean", "flipU", "true"},
     {"shape", "obj", "boolean", "smooth", "true", "faceNormals"},
     {"shape", "obj", "boolean", "flipV", "true"},
+    {"shape", "obj", "boolean", "materials", "false"},
     {"shape", "ply", "boolean", "smooth", "true", "faceNormals"},
     {"shape", "serialized", "boolean", "smooth", "true", "faceNormals"},
 

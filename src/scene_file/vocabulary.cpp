@@ -135,8 +135,8 @@ private:
     {
         if (refusal.once && !refused_.insert({child.file.get(), refusal.instead}).second) return;
         const std::string_view rest = !refusal.once      ? options_.lenient ? "; it is left out" : ""
-                                      : options_.lenient ? "; the file's are left out"
-                                                         : "; --lenient leaves the file's out";
+                                      : options_.lenient ? "; it and all others are left out"
+                                                         : "; --lenient leaves it and all others out";
         diagnostics_.add(options_.lenient ? Severity::warning : Severity::error, child.place(),
                          fmt::format("<{}> is not supported; {}{}", child.tag, refusal.instead, rest));
     }

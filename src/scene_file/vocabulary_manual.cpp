@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "scene_file/vocabulary_manual.h"
 
+#include "scene_file/folded_name.h"
 #include "scene_file/fork_words.h"
 #include "scene_file/mitsuba_values.h"
 #include "scene_file/mitsuba_words.h"
@@ -120,7 +121,7 @@ std::optional<std::string> manual_of_type(const Vocabulary& words, std::string_v
 {
     std::string text;
     for_rows(words, &Vocabulary::types, [&](const TypeName& row) {
-        if (row.theirs != type) return;
+        if (folded(row.theirs) != folded(type)) return;
         text += fmt::format("{}{} '{}' of {}: '{}' here\n\n{}", text.empty() ? "" : "\n", row.kind, type,
                             words.name, row.ours, parameters_text(words, row));
     });
