@@ -7,7 +7,9 @@
 #include "scene_file/catalog.h"
 #include "scene_file/element_manuals.h"
 #include "scene_file/foreign_names.h"
+#include "scene_file/nori_words.h"
 #include "scene_file/placement.h"
+#include "scene_file/vocabulary_manual.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -106,7 +108,9 @@ int run(const VerbOptions& options)
         print_list();
         print_elements();
     } else if (!print_type_manuals(name) && !print_element_manual(name)) {
-        reject_name(name);
+        const auto other = manual_of_type(nori_vocabulary(DialectName::plumb), name);
+        if (!other) reject_name(name);
+        print_output(*other);
     }
     return exit_code::done;
 }
