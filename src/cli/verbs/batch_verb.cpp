@@ -40,7 +40,7 @@ private:
 };
 
 SuiteRun run_and_tell(const Options& options, const std::vector<SuiteJob>& jobs, const SuiteOptions& how,
-                      ShownImages& images)
+                      ShownImages& shown)
 {
     std::size_t width = 0;
     for (const SuiteJob& job : chosen_jobs(options.subject(), jobs, how))
@@ -49,7 +49,7 @@ SuiteRun run_and_tell(const Options& options, const std::vector<SuiteJob>& jobs,
     const InterruptGuard guard(Interruption::by_hand);
     const auto tell = [&](const SuiteResult& result, const SuiteImages& images) {
         display.end();
-        images.add(result, images);
+        shown.add(result, images);
         if (!options.quiet || result.state == JobState::failed) print_output(result_line(result, width));
         finish_output(); // so far
     };
