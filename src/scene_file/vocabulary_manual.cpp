@@ -30,6 +30,7 @@ constexpr ConvertText convert_texts[] = {
     {without_scale, "must not scale"},
     {position_of, "where it moves the origin"},
     {direction_of, "where it turns +z"},
+    {only_rgb, "checked; the image is linear RGB"},
 };
 
 std::string_view text_of(Convert convert)
@@ -59,7 +60,7 @@ std::string parameters_text(const Vocabulary& words, const TypeName& type)
             std::find(done.begin(), done.end(), row.theirs) != done.end())
             return;
         done.push_back(row.theirs);
-        std::string line = fmt::format("    {:<26}{}", row.theirs, row.ours);
+        std::string line = fmt::format("    {:<26}{}", row.theirs, row.ours.empty() ? "ignored" : row.ours);
         if (const std::string_view note = text_of(row.convert); !note.empty())
             line += fmt::format(", {}", note);
         text += line + "\n";
@@ -79,6 +80,14 @@ std::string parameters_text(const Vocabulary& words, const TypeName& type)
 }
 
 } // namespace
+
+std::vector<std::string_view> vocabulary_names()
+{
+    std::vector<std::string_view> names;
+    for (const DialectName dialect : all_dialects) names.push_back(to_string(dialect));
+    names.insert(names.end(), {"mitsuba3", "mitsuba06"});
+    return names;
+}
 
 const Vocabulary* vocabulary_named(std::string_view name)
 {
