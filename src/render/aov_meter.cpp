@@ -22,6 +22,7 @@ struct NamedRow {
     const AovRow* row;
     bool behind;
     bool variance;
+    std::string as = {}; // the layer's name, if it is another one
 
     std::string name() const
     {
@@ -30,7 +31,7 @@ struct NamedRow {
     Layer layer() const
     {
         Layer layer = row->layer;
-        layer.name = name();
+        layer.name = as.empty() ? name() : as;
         if (variance) layer.kind = is_of_hits(layer.kind) ? LayerKind::variance_of_hits : LayerKind::variance;
         return layer;
     }
@@ -48,23 +49,54 @@ std::vector<NamedRow> all_rows()
     return rows;
 }
 
+NamedRow row_named(const std::vector<NamedRow>& rows, std::string_view name)
+{
+    const auto found =
+        std::find_if(rows.begin(), rows.end(), [&](const NamedRow& row) { return row.name() == name; });
+    if (found != rows.end()) return *found;
+    std::vector<std::string> known;
+    for (const NamedRow& row : rows)
+        if (!row.variance) known.push_back(row.name());
+    throw Error(fmt::format("unknown AOV '{}'; known are {}, and {}NAME of those that are no ids", name,
+                            fmt::join(known, ", "), variance_prefix));
+}
+
+// Of LAYER:NAME.
+NamedRow row_called(const std::vector<NamedRow>& rows, std::string_view layer, std::string_view name)
+{
+    if (!is_layer_name(layer) || layer == "variance")
+        throw Error(fmt::format("'{}' cannot be the name of a layer; it takes letters, digits, '_', '-' and "
+                                "dots inside",
+                                layer));
+    NamedRow row = row_named(rows, name);
+    row.as = layer;
+    return row;
+}
+
 std::vector<NamedRow> rows_of(std::span<const std::string> names)
 {
     if (names.empty()) return {};
-    std::vector<NamedRow> rows = all_rows();
-    for (const std::string& name : names) {
-        if (std::any_of(rows.begin(), rows.end(), [&](const NamedRow& row) { return row.name() == name; }))
-            continue;
-        std::vector<std::string> known;
-        for (const NamedRow& row : rows)
-            if (!row.variance) known.push_back(row.name());
-        throw Error(fmt::format("unknown AOV '{}'; known are {}, and {}NAME of those that are no ids", name,
-                                fmt::join(known, ", "), variance_prefix));
+    const std::vector<NamedRow> rows = all_rows();
+    std::vector<NamedRow> called;
+    std::unordered_set<std::string> plain;
+    for (const std::string_view name : names) {
+        const std::size_t colon = name.find(':');
+        if (colon == name.npos)
+            plain.insert(row_named(rows, name).name());
+        else
+            called.push_back(row_called(rows, name.substr(0, colon), name.substr(colon + 1)));
     }
-    std::erase_if(rows, [&](const NamedRow& row) {
-        return std::find(names.begin(), names.end(), row.name()) == names.end();
-    });
-    return rows;
+    std::vector<NamedRow> wanted;
+    for (const NamedRow& row : rows)
+        if (plain.contains(row.name())) wanted.push_back(row);
+    wanted.insert(wanted.end(), called.begin(), called.end());
+    if (wanted.size() > max_layers)
+        throw Error(fmt::format("there can be {} layers, not {}", max_layers, wanted.size()));
+    std::unordered_set<std::string> layers;
+    for (const NamedRow& row : wanted)
+        if (const Layer layer = row.layer(); !layers.insert(layer.name).second)
+            throw Error(fmt::format("two layers are called '{}'", layer.name));
+    return wanted;
 }
 
 void put(double* out, const Vec3d& v)
@@ -107,7 +139,9 @@ std::vector<std::pair<std::string, std::vector<std::string>>> id_tables(std::spa
     for (const NamedRow& named : rows_of(names)) {
         if (!named.row->table) continue;
         const std::string& name = named.row->layer.name; // of both of its layers
-        if (tables.empty() || tables.back().first != name) tables.emplace_back(name, named.row->table(scene));
+        if (std::none_of(tables.begin(), tables.end(),
+                         [&](const auto& table) { return table.first == name; }))
+            tables.emplace_back(name, named.row->table(scene));
     }
     return tables;
 }
@@ -152,7 +186,7 @@ AovMeter::AovMeter(std::span<const std::string> names, const Scene& scene, const
     if (!wanted_.empty()) view_.emplace(scene, camera);
 }
 
-LayerSample AovMeter::measure(const FirstSurfaces& first, Values& room) const
+LayerSample AovMeter::measure(const FirstSurfaces& first, const Color& radiance, Values& room) const
 {
     room.values.clear();
     room.ids.clear();
@@ -160,7 +194,7 @@ LayerSample AovMeter::measure(const FirstSurfaces& first, Values& room) const
     std::uint64_t bit = 1;
     for (const auto& [row, behind] : wanted_) {
         const std::optional<SeenSurface>& seen = behind ? first.not_delta : first.surface;
-        if (seen) hits |= bit;
+        if (seen || row->of_radiance) hits |= bit;
         bit <<= 1;
         if (row->identify) {
             room.ids.push_back(seen ? row->identify(*seen, *view_) : 0);
@@ -168,7 +202,10 @@ LayerSample AovMeter::measure(const FirstSurfaces& first, Values& room) const
         }
         const std::size_t at = room.values.size();
         room.values.resize(at + row->layer.components.size(), 0.f);
-        if (seen) row->measure(*seen, *view_, &room.values[at]);
+        if (row->of_radiance)
+            row->of_radiance(radiance, &room.values[at]);
+        else if (seen)
+            row->measure(*seen, *view_, &room.values[at]);
     }
     return {room.values, room.ids, hits};
 }

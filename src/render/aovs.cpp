@@ -7,6 +7,7 @@
 #include "plumb/render/aovs.h"
 
 #include "plumb/model/camera.h"
+#include "plumb/model/shape.h"
 #include "plumb/scene/tracer.h"
 
 namespace plumb {
@@ -32,6 +33,14 @@ Vec3f towards_viewer(const SeenSurface& seen, const Vec3f& normal)
     return dot(seen.at.geometric_normal, seen.direction) > 0.f ? -normal : normal;
 }
 
+// IEC 61966-2-1: of linear sRGB.
+Vec3f xyz_of(const Color& c)
+{
+    return {0.412453f * c.r + 0.357580f * c.g + 0.180423f * c.b,
+            0.212671f * c.r + 0.715160f * c.g + 0.072169f * c.b,
+            0.019334f * c.r + 0.119193f * c.g + 0.950227f * c.b};
+}
+
 Color albedo(const SeenSurface& seen)
 {
     return seen.through * seen.at.bsdf->albedo(seen.at, seen.at.shading.to_local(-seen.direction));
@@ -50,6 +59,18 @@ using View = AovView;
 using Names = std::vector<std::string>;
 const Names rgb = {"R", "G", "B"};
 const Names xyz = {"X", "Y", "Z"};
+
+// Over all samples, with the filter's weights: what sees nothing counts as 0, as in the aov integrator of Mitsuba.
+AovRow mean_row(const char* name, Names components, std::string_view unit, std::string_view manual,
+                void (*measure)(const Seen&, const View&, float*))
+{
+    return {{name, std::move(components), LayerKind::mean}, unit, manual, false, measure, nullptr, nullptr};
+}
+
+AovRow moment_row(const char* name, std::string_view manual, void (*of_radiance)(const Color&, float*))
+{
+    return {{name, xyz, LayerKind::mean}, "", manual, false, nullptr, nullptr, nullptr, of_radiance};
+}
 
 const std::vector<AovRow>& table()
 {
@@ -131,6 +152,38 @@ const std::vector<AovRow>& table()
          nullptr,
          [](const Seen& seen, const View& view) { return view.material_of(seen.at.bsdf); },
          material_names},
+        mean_row("mean_depth", {"T"}, "scene units", "distance from the camera along the ray",
+                 [](const Seen& seen, const View&, float* out) { out[0] = seen.distance; }),
+        mean_row("mean_position", xyz, "scene units", "where the surface is, world space",
+                 [](const Seen& seen, const View&, float* out) { put(out, seen.at.position); }),
+        mean_row("mean_uv", {"U", "V"}, "", "texture coordinates",
+                 [](const Seen& seen, const View&, float* out) {
+                     out[0] = seen.at.uv.x;
+                     out[1] = seen.at.uv.y;
+                 }),
+        mean_row("mean_normal", xyz, "", "shading normal of the front side, whichever is seen",
+                 [](const Seen& seen, const View&, float* out) { put(out, seen.at.shading.n); }),
+        mean_row("mean_geometric_normal", xyz, "", "normal of the front side of the surface itself",
+                 [](const Seen& seen, const View&, float* out) { put(out, seen.at.geometric_normal); }),
+        mean_row("mean_dp_du", xyz, "scene units", "how the point moves with u, world space",
+                 [](const Seen& seen, const View&, float* out) { put(out, tangents_at(seen.at).dp_du); }),
+        mean_row("mean_dp_dv", xyz, "scene units", "how the point moves with v, world space",
+                 [](const Seen& seen, const View&, float* out) { put(out, tangents_at(seen.at).dp_dv); }),
+        mean_row("mean_object", {"I"}, "", "number of the object: its line in plumb:ids.object, from 1",
+                 [](const Seen& seen, const View& view, float* out) {
+                     out[0] = static_cast<float>(view.object_of(seen.at));
+                 }),
+        mean_row("mean_primitive", {"I"}, "", "number of the triangle in its mesh, from 0",
+                 [](const Seen& seen, const View&, float* out) {
+                     out[0] = static_cast<float>(seen.at.primitive);
+                 }),
+        moment_row("xyz", "the light of the sample in CIE XYZ",
+                   [](const Color& radiance, float* out) { put(out, xyz_of(radiance)); }),
+        moment_row("xyz_squared", "the square of each component of xyz",
+                   [](const Color& radiance, float* out) {
+                       const Vec3f v = xyz_of(radiance);
+                       put(out, v * v);
+                   }),
     };
     return rows;
 }

@@ -42,7 +42,7 @@ Layer layer_from_text(std::string_view text)
     layer.kind = static_cast<LayerKind>(kind - std::begin(kinds));
     const std::set<std::string> unique(layer.components.begin(), layer.components.end());
     const std::size_t count = layer.components.size();
-    if (!is_name(layer.name) || kind == std::end(kinds) || unique.size() != count || count < 1 ||
+    if (!is_layer_name(layer.name) || kind == std::end(kinds) || unique.size() != count || count < 1 ||
         count > max_components || (layer.kind == LayerKind::id && count != 1) ||
         !std::all_of(unique.begin(), unique.end(), is_name))
         throw Error("the text is no set of layers");
@@ -50,6 +50,15 @@ Layer layer_from_text(std::string_view text)
 }
 
 } // namespace
+
+bool is_layer_name(std::string_view text)
+{
+    if (text.empty() || text.front() == '.' || text.back() == '.') return false;
+    std::string plain(text);
+    std::replace_if(
+        plain.begin(), plain.end(), [](char c) { return c == '.' || c == '-'; }, '_');
+    return is_name(plain);
+}
 
 std::string to_text(const ChannelSet& layers)
 {

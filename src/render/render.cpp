@@ -225,9 +225,11 @@ bool Rendering::take(const SampleSet& wanted, const ProgressReport& progress, co
                     const SampleTaken sample =
                         take_sample(job_, edge, worker.tracer, *worker.sampler, options_.seed, {x, y}, index);
                     const SampleStatus status =
-                        meter.empty() ? state_.film.add({x, y}, sample.radiance, sample.weight)
-                                      : state_.film.add({x, y}, sample.radiance, sample.weight,
-                                                        meter.measure(worker.first, worker.values), index);
+                        meter.empty()
+                            ? state_.film.add({x, y}, sample.radiance, sample.weight)
+                            : state_.film.add({x, y}, sample.radiance, sample.weight,
+                                              meter.measure(worker.first, sample.radiance, worker.values),
+                                              index);
                     if (status != SampleStatus::accepted)
                         worker.left_out.add({{x, y}, index, sample.radiance, status});
                 }

@@ -8,6 +8,7 @@
 #include "rendering/program.h"
 
 #include "plumb/render/aovs.h"
+#include "plumb/rendering/task.h"
 #include "plumb/scene/scene.h"
 #include "plumb/settings/settings_header.h"
 
@@ -100,7 +101,7 @@ Metadata scene_header(const RenderTask& task)
     add("plumb:instructionSet", scene.job.scene->options().instruction_set);
     add("plumb:embree", scene.job.scene->embree_version());
     add("plumb:processor", processor_maker());
-    for (auto& [name, ids] : id_tables(settings.view.aovs, *scene.job.scene)) {
+    for (auto& [name, ids] : id_tables(aovs_of(settings.view, scene), *scene.job.scene)) {
         for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = fmt::format("{} {}", i + 1, ids[i]);
         header.emplace_back("plumb:ids." + name, valid_utf8(lines_text(ids)));
     }

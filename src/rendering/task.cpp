@@ -3,6 +3,8 @@
 
 #include "base/visible_text.h"
 
+#include <algorithm>
+
 namespace plumb {
 
 namespace {
@@ -16,6 +18,14 @@ std::string name_of(const std::filesystem::path& file)
 
 } // namespace
 
+std::vector<std::string> aovs_of(const ViewSettings& view, const LoadedScene& scene)
+{
+    std::vector<std::string> aovs = view.aovs;
+    for (const std::string& aov : scene.aovs)
+        if (std::find(aovs.begin(), aovs.end(), aov) == aovs.end()) aovs.push_back(aov);
+    return aovs;
+}
+
 RenderTask make_task(SceneFile& file, const RenderSettings& settings)
 {
     RenderTask task{
@@ -24,7 +34,7 @@ RenderTask make_task(SceneFile& file, const RenderSettings& settings)
     task.options.samples_per_pixel = settings.samples.per_pixel.value_or(0);
     task.options.seed = settings.samples.seed;
     task.options.crop = settings.view.crop;
-    task.options.aovs = settings.view.aovs;
+    task.options.aovs = aovs_of(settings.view, task.scene);
     task.options.samples_per_pixel = render_samples(task.scene.job, task.options);
     return task;
 }

@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 #include "base/parallel.h"
+#include "plumb/render/aovs.h"
 #include "scene_file/axis_camera.h"
 #include "scene_file/build_child.h"
 #include "scene_file/foreign_names.h"
@@ -139,8 +140,28 @@ void SceneBuilder::check_property(const Element& child)
     if (!property) return;
     const std::string name = child.value("name");
     if (find_ignored("scene", "", name)) return;
+    if (name == "aovs" && property->tag == "string") return read_aovs(*property);
     diagnostics_.add(context_.lenient ? Severity::warning : Severity::error, property->name_at,
-                     fmt::format("unknown parameter '{}' for <scene>; it takes none", name));
+                     fmt::format("unknown parameter '{}' for <scene>; it takes 'aovs' only", name));
+}
+
+// "albedo, dd.y:mean_depth".
+void SceneBuilder::read_aovs(const Property& property)
+{
+    std::string_view rest = property.text;
+    while (!rest.empty()) {
+        std::string_view one = rest.substr(0, rest.find(','));
+        rest.remove_prefix(std::min(one.size() + 1, rest.size()));
+        one.remove_prefix(std::min(one.find_first_not_of(' '), one.size()));
+        one = one.substr(0, one.find_last_not_of(' ') + 1); // npos + 1 is 0
+        if (!one.empty()) aovs_.emplace_back(one);
+    }
+    try {
+        layers_of(aovs_);
+    } catch (const Error& problem) {
+        diagnostics_.error(property.value_at, problem.what());
+        aovs_.clear();
+    }
 }
 
 // --- Camera ---

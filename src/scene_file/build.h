@@ -37,6 +37,8 @@ public:
     SceneBuilder(const Element& root, LoadContext& context);
 
     SceneContents build_contents();
+    // The layers that the file asks for, as in --aov.
+    const std::vector<std::string>& aovs() const { return aovs_; }
     // As often as wanted.
     MethodAndView build_method_and_view(const MethodSettings& method, const ViewSettings& view);
 
@@ -45,6 +47,7 @@ private:
     void add_child(const Element& child);
     void check_shared(const Element& child);
     void check_property(const Element& child);
+    void read_aovs(const Property& property);
     void build_camera(MethodAndView& parts, const ViewSettings& view);
     void check_memory(Vec2i resolution, const ViewSettings& view);
     void build_integrator(MethodAndView& parts, const MethodSettings& method);
@@ -63,6 +66,7 @@ private:
     const Element* integrator_ = nullptr;
     const Element* sampler_ = nullptr;
     const Element* environment_ = nullptr;
+    std::vector<std::string> aovs_;
 };
 
 std::shared_ptr<const Scene> make_scene(SceneContents contents, const std::string& instruction_set,

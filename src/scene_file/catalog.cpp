@@ -59,6 +59,9 @@ constexpr Entry<Bsdf> bsdfs[] = {
     {"mask", build<class Mask>, "Mask"},
     {"null", build<class NullBsdf>, "NullBsdf"},
     {"blend", build<class Blend>, "Blend"},
+    {"mixture", build<class Mixture>, "Mixture"},
+    {"ward", build<class Ward>, "Ward"},
+    {"coating", build<class Coating>, "Coating"},
 };
 
 constexpr Entry<Texture> textures[] = {

@@ -16,6 +16,8 @@ order, <bsdf> and <texture> that a <ref> names, and <include> and <default>. The
 course's dialect applies: plumb, epfl, eth, zaragoza or mcgill; without it the dialect is chosen by marks in the
 file.
 
+    aovs   string   layers that are written besides those of --aov: "albedo, dd.y:mean_depth" (docs/aovs.md)
+
         <scene dialect="plumb">
             <integrator type="path_mis"/>
             <camera type="perspective"/>

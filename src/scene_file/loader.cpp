@@ -203,6 +203,7 @@ LoadedScene SceneFile::load_with(const MethodSettings& method, const ViewSetting
             .dialect = file.choice.dialect,
             .integrator = std::move(integrator),
             .sampler = std::move(sampler),
+            .aovs = file.builder.aovs(),
             .inputs = file.inputs,
             .input_hash = input_hash(file.inputs, file.choice.dialect, file.settings, method, view),
             .changed_readings = readings_changed_since_1(file.root, file.choice.dialect),

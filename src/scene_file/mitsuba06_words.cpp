@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -83,8 +84,38 @@ void blackbody_syntax(Element& element)
     set_attribute(element, "type", "blackbody");
 }
 
+// uscale, vscale, uoffset and voffset as to_uv: u' = uscale u + uoffset.
+bool uv_syntax(Element& texture, Diagnostics& diagnostics)
+{
+    double values[] = {1.0, 1.0, 0.0, 0.0};
+    constexpr std::string_view names[] = {"uscale", "vscale", "uoffset", "voffset"};
+    bool is_given = false, good = true;
+    std::erase_if(texture.children, [&](const Element& child) {
+        const auto name = std::find(std::begin(names), std::end(names), child.value("name"));
+        const Attribute* value = child.attribute("value");
+        if (name == std::end(names) || !value || (child.tag != "float" && child.tag != "integer"))
+            return false;
+        const auto number = read_number(child, *value, diagnostics);
+        good = good && number;
+        values[name - std::begin(names)] = number.value_or(0.0);
+        is_given = true;
+        return true;
+    });
+    if (!good || !is_given) return good;
+    Element to_uv = made_object(texture, "transform", "");
+    set_attribute(to_uv, "name", "to_uv");
+    for (const auto& [tag, first, last] : {std::tuple("scale", 0, 1.0), std::tuple("translate", 2, 0.0)}) {
+        Element operation = made_object(texture, tag, "");
+        set_attribute(operation, "value", fmt::format("{}, {}, {}", values[first], values[first + 1], last));
+        to_uv.children.push_back(std::move(operation));
+    }
+    texture.children.push_back(std::move(to_uv));
+    return true;
+}
+
 bool syntax(Element& element, Diagnostics& diagnostics)
 {
+    if (element.tag == "texture" && !uv_syntax(element, diagnostics)) return false;
     if (const Attribute* name = element.attribute("name"); name && is_property_tag(element.tag))
         if (const std::string ours = snake_case(name->value); ours != name->value)
             rename_attribute_value(element, "name", ours);
@@ -115,6 +146,16 @@ bool known_distribution(Element& parameter, Diagnostics& diagnostics)
     return true;
 }
 
+// Ward's model has three normalisations; Plumb's is the one that keeps energy.
+bool only_balanced(Element& parameter, Diagnostics& diagnostics)
+{
+    const Attribute* value = parameter.attribute("value");
+    if (value && value->value != "balanced")
+        diagnostics.warning(parameter.value_place(*value),
+                            fmt::format("the variant '{}' is rendered as 'balanced'", value->value));
+    return false;
+}
+
 // Filters of more than one texel need differentials of rays.
 bool known_filter(Element& parameter, Diagnostics&)
 {
@@ -136,12 +177,27 @@ constexpr TypeName types[] = {
     {"sampler", "hammersley", "sobol"},
     {"bsdf", "roughdiffuse", "diffuse", near_diffuse},
     {"bsdf", "difftrans", "diffuse", near_diffuse},
+    {"bsdf", "phong", "phong"},
+    {"bsdf", "ward", "ward"},
+    {"bsdf", "mixturebsdf", "mixture"},
+    {"bsdf", "coating", "coating"},
+    {"bsdf", "roughcoating", "coating", "this is rendered as 'coating', whose surface is smooth"},
 };
 
 constexpr ParamName params[] = {
     {"bsdf", "diffuse", "diffuse_reflectance", "albedo", color_of_reflectance},
     {"bsdf", "roughdiffuse", "reflectance", "albedo", color_of_reflectance},
     {"bsdf", "roughdiffuse", "diffuse_reflectance", "albedo", color_of_reflectance},
+    {"bsdf", "difftrans", "transmittance", "albedo", color_of_reflectance},
+    {"bsdf", "phong", "diffuse_reflectance", "diffuse-coefficients", color_of_reflectance},
+    {"bsdf", "phong", "specular_reflectance", "specular-coefficients", color_of_reflectance},
+    {"bsdf", "phong", "exponent", "exponent", to_number},
+    {"bsdf", "ward", "variant", "", only_balanced},
+    {"bsdf", "mixturebsdf", "weights", "weights"},
+    {"bsdf", "coating", "thickness", "thickness"},
+    {"bsdf", "coating", "sigma_a", "sigmaA", color_of_index},
+    {"bsdf", "roughcoating", "thickness", "thickness"},
+    {"bsdf", "roughcoating", "sigma_a", "sigmaA", color_of_index},
     {"bsdf", "conductor", "ext_eta", "extIOR", index_by_name},
     {"bsdf", "roughconductor", "ext_eta", "extIOR", index_by_name},
     {"bsdf", "", "distribution", "distribution", known_distribution},
@@ -152,14 +208,12 @@ constexpr ParamName params[] = {
 constexpr Preset presets[] = {
     {"bsdf", "conductor", "string", "material", "Cu", "eta"},
     {"bsdf", "roughconductor", "string", "material", "Cu", "eta"},
+    {"bsdf", "phong", "color", "diffuse-coefficients", "0.5 0.5 0.5"},
+    {"bsdf", "phong", "color", "specular-coefficients", "0.2 0.2 0.2"},
+    {"bsdf", "phong", "float", "exponent", "30"},
 };
 
 constexpr Refusal refusals[] = {
-    {"bsdf", "coating", "use 'plastic' or 'roughplastic'"},
-    {"bsdf", "roughcoating", "use 'roughplastic'"},
-    {"bsdf", "phong", "use 'roughplastic'"},
-    {"bsdf", "ward", "use 'roughconductor' or 'roughplastic'"},
-    {"bsdf", "mixturebsdf", "use 'blendbsdf'"},
     {"emitter", "sun", "use 'directional'"},
     {"emitter", "collimated", "use 'spot' with a small cutoffAngle"},
     {"texture", "scale", "scale the image itself"},
@@ -179,6 +233,12 @@ constexpr Ignored ignored[] = {
     {"sampler", "", "dimension"},
     {"bsdf", "roughdiffuse", "alpha"},
     {"bsdf", "roughdiffuse", "use_fast_approx"},
+    {"bsdf", "coating", "specular_sampling_weight"},
+    {"bsdf", "roughcoating", "specular_sampling_weight"},
+    {"bsdf", "roughcoating", "alpha"},
+    {"bsdf", "roughcoating", "distribution"},
+    {"bsdf", "ward", "specular_sampling_weight"},
+    {"bsdf", "phong", "specular_sampling_weight"},
     {"texture", "bitmap", "max_anisotropy"},
     {"texture", "bitmap", "cache"},
     {"shape", "", "max_smooth_angle",

@@ -2,7 +2,9 @@
 #include "scene_file/mitsuba_expand.h"
 
 #include "base/named_file.h"
+#include "scene_file/mitsuba_refs.h"
 #include "scene_file/property_values.h"
+#include "scene_file/spectrum_file.h"
 
 #include <algorithm>
 #include <set>
@@ -51,6 +53,7 @@ public:
                     {}, fmt::format("-D {}={}: no file of this scene uses ${}", name, value, name));
         check_ids(root);
         resolve_aliases(root);
+        if (parts_ < limits_.parts) place_copies(root, limits_.parts - parts_, diagnostics_);
         return {std::move(root), std::move(files_)};
     }
 
@@ -72,6 +75,7 @@ private:
         if (child.tag == "path") return add_path(child);
         if (child.tag == "alias") return add_alias(child);
         if (child.tag == "string" && child.value("name") == "filename") find_file(child);
+        if (child.tag == "spectrum" && child.attribute("filename") && !read_spectrum(child)) return;
         gather_children(child);
         children.push_back(std::move(child));
     }
@@ -202,6 +206,29 @@ private:
         const fs::path absolute = fs::absolute(found, status);
         value->value = (status ? found : absolute).string();
         value->verbatim = false;
+    }
+
+    // The file's pairs become the value. false: it has been reported.
+    bool read_spectrum(Element& element)
+    {
+        const Attribute filename = *element.attribute("filename");
+        if (filename.broken) return false;
+        const fs::path other = elsewhere(element, filename.value);
+        try {
+            Attribute value = filename;
+            value.name = "value";
+            value.value =
+                read_spectrum_file(other.empty() ? element.file->directory() / filename.value : other);
+            value.verbatim = false;
+            text_size_ += value.value.size();
+            if (text_size_ > limits_.text_size) throw Error("the files of this scene are too large together");
+            std::erase_if(element.attributes, [](const Attribute& a) { return a.name == "filename"; });
+            element.attributes.push_back(std::move(value));
+            return true;
+        } catch (const Error& error) {
+            diagnostics_.error(element.value_place(filename), error.what());
+            return false;
+        }
     }
 
     void include(const Element& element, std::vector<Element>& children)

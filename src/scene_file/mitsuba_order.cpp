@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "scene_file/mitsuba_words.h"
 
+#include "plumb/render/channel_set.h"
 #include "scene_file/property_values.h"
 
 #include <algorithm>
@@ -19,13 +20,16 @@ public:
     void run()
     {
         std::erase_if(root_.attributes, [](const Attribute& a) { return a.name == "version"; });
+        dissolve_merged(root_);
         std::vector<Element> kept;
-        kept.reserve(root_.children.size() + 2);
+        kept.reserve(root_.children.size() + 3);
         for (Element& child : root_.children) {
             if (child.tag == "camera" && std::exchange(has_camera_, true))
                 continue; // Mitsuba takes the first
             if (child.tag == "camera") order_camera(child);
             if (child.tag == "integrator") order_integrator(child);
+            if (child.tag == "film" || child.tag == "rfilter") continue; // nothing refers to it any more
+            if (child.tag == "sampler") continue;
             if (child.tag == "shape") order_shape(child);
             // Nothing can refer to it.
             if ((child.tag == "bsdf" || child.tag == "texture") && child.value("id").empty()) continue;
@@ -40,10 +44,31 @@ public:
             diagnostics_.error(root_.place(),
                                "the scene has no <integrator>; write <integrator type=\"path\"/>");
         if (sampler_) kept.push_back(*std::move(sampler_));
+        if (aovs_at_) {
+            set_attribute(*aovs_at_, "value", aovs_);
+            kept.push_back(*std::move(aovs_at_));
+        }
         root_.children = std::move(kept);
     }
 
 private:
+    // The shapes of a 'merge' take its place. Recursion ends: parse_document().
+    static void dissolve_merged(Element& parent)
+    {
+        std::vector<Element> kept;
+        kept.reserve(parent.children.size());
+        for (Element& child : parent.children) {
+            if (child.tag == "shape") dissolve_merged(child);
+            if (child.tag != "shape" || child.value("type") != "merge") {
+                kept.push_back(std::move(child));
+                continue;
+            }
+            for (Element& inner : child.children)
+                if (inner.tag == "shape") kept.push_back(std::move(inner));
+        }
+        parent.children = std::move(kept);
+    }
+
     // The film's parameters are the camera's, and the sampler stands in the scene.
     void order_camera(Element& camera)
     {
@@ -109,27 +134,115 @@ private:
                                        element.written_tag(), element.written_type(), theirs));
     }
 
+    // The integrator inside takes the place of 'moment' and 'aov', whose channels become layers. prefix: of their names.
     // Recursion ends: parse_document().
-    void order_integrator(Element& integrator)
+    void order_integrator(Element& integrator, const std::string& prefix = {})
     {
         has_integrator_ = true;
-        const std::string type = integrator.value("type");
+        const std::string type = integrator.written_type();
+        if (type == "depth")
+            std::erase_if(integrator.children,
+                          [](const Element& child) { return child.value("name") != "inverse"; });
         if (type != "moment" && type != "aov") return;
-        if (type == "aov")
-            diagnostics_.warning(integrator.place(),
-                                 "the channels of 'aov' are not written; --aov writes some");
-        const auto inner = std::find_if(integrator.children.begin(), integrator.children.end(),
-                                        [](const Element& child) { return child.tag == "integrator"; });
-        if (inner == integrator.children.end()) {
+        if (type == "aov") add_channels(integrator, prefix);
+        Element* inner = nullptr;
+        for (Element& child : integrator.children) {
+            if (child.tag != "integrator") continue;
+            if (!inner)
+                inner = &child;
+            else
+                diagnostics_.warning(child.place(),
+                                     fmt::format("only the first integrator inside '{}' is rendered", type));
+        }
+        if (!inner && type == "aov") {
+            integrator = only_lights(integrator);
+            return;
+        }
+        if (!inner) {
             diagnostics_.error(
                 integrator.place(),
                 fmt::format("integrator '{}' needs one inside it: <integrator type=\"path\"/>", type));
             integrator = made_object(integrator, "integrator", "path_mis");
             return;
         }
+        const std::string name = inner->value("name").empty() ? "_arg_0" : inner->value("name");
+        if (type == "moment") {
+            if (inner->written_type() == "aov")
+                diagnostics_.warning(
+                    integrator.place(),
+                    "second moments are written of light only, not of the channels of 'aov'");
+            add_layer(integrator, prefix + name, "xyz");
+            add_layer(integrator, prefix + "m2_" + name, "xyz_squared");
+        }
         Element only = std::move(*inner);
+        std::erase_if(only.attributes, [](const Attribute& a) { return a.name == "name"; });
         integrator = std::move(only);
-        order_integrator(integrator);
+        order_integrator(integrator, prefix + name + ".");
+    }
+
+    // Without an integrator inside, 'aov' writes its channels alone.
+    static Element only_lights(const Element& aov)
+    {
+        Element integrator = made_object(aov, "integrator", "path_mis");
+        integrator.children.push_back(made_parameter(aov, "integer", "maxDepth", "0"));
+        return integrator;
+    }
+
+    // "dd.y:depth, nn:sh_normal".
+    void add_channels(const Element& aov, const std::string& prefix)
+    {
+        struct Channel {
+            std::string_view theirs, ours;
+        };
+        constexpr Channel channels[] = {
+            {"depth", "mean_depth"},
+            {"position", "mean_position"},
+            {"uv", "mean_uv"},
+            {"geo_normal", "mean_geometric_normal"},
+            {"sh_normal", "mean_normal"},
+            {"dp_du", "mean_dp_du"},
+            {"dp_dv", "mean_dp_dv"},
+            {"prim_index", "mean_primitive"},
+            {"shape_index", "mean_object"},
+            {"albedo", "albedo"},
+        };
+        const auto list = std::find_if(aov.children.begin(), aov.children.end(),
+                                       [](const Element& child) { return child.value("name") == "aovs"; });
+        const Attribute* value = list == aov.children.end() ? nullptr : list->attribute("value");
+        if (!value || value->broken) return;
+        std::string_view rest = value->value;
+        while (!rest.empty()) {
+            std::string_view one = rest.substr(0, rest.find(','));
+            rest.remove_prefix(std::min(one.size() + 1, rest.size()));
+            one.remove_prefix(std::min(one.find_first_not_of(' '), one.size()));
+            one = one.substr(0, one.find_last_not_of(' ') + 1); // npos + 1 is 0
+            if (one.empty()) continue;
+            const std::size_t colon = one.find(':');
+            const std::string_view theirs = colon == one.npos ? "" : one.substr(colon + 1);
+            const auto* channel = std::find_if(std::begin(channels), std::end(channels),
+                                               [&](const Channel& row) { return row.theirs == theirs; });
+            const std::string layer = prefix + std::string(one.substr(0, colon));
+            if (channel == std::end(channels) || !is_layer_name(layer)) {
+                diagnostics_.warning(
+                    list->value_place(*value),
+                    fmt::format("the channel '{}' is not written; those that are have the form NAME:TYPE, "
+                                "where TYPE is albedo, depth, position, uv, geo_normal, sh_normal, dp_du, "
+                                "dp_dv, prim_index or shape_index",
+                                one));
+                continue;
+            }
+            if (theirs == "albedo")
+                diagnostics_.warning(list->value_place(*value),
+                                     "'albedo' is all that a surface reflects or transmits; in Mitsuba it is "
+                                     "the diffuse part");
+            add_layer(aov, layer, channel->ours);
+        }
+    }
+
+    void add_layer(const Element& at, const std::string& layer, std::string_view aov)
+    {
+        aovs_ += fmt::format("{}{}:{}", aovs_.empty() ? "" : ",", layer, aov);
+        if (!aovs_at_) aovs_at_ = made_parameter(at, "string", "aovs", "");
     }
 
     // A lamp without a bsdf is black.
@@ -148,6 +261,8 @@ private:
     Element& root_;
     Diagnostics& diagnostics_;
     std::optional<Element> sampler_;
+    std::string aovs_;
+    std::optional<Element> aovs_at_;
     bool has_camera_ = false;
     bool has_integrator_ = false;
 };

@@ -143,6 +143,33 @@ bool flatten_spectrum(Element& element, std::initializer_list<std::string_view> 
     return true;
 }
 
+// Values at even distances from one wavelength to another.
+bool regular_spectrum(Element& element, Diagnostics& diagnostics)
+{
+    const double first = number_of(element, "wavelength_min", 0.0, diagnostics),
+                 last = number_of(element, "wavelength_max", 0.0, diagnostics);
+    const Element* values = child_named(element, "values");
+    const Attribute* list = values ? values->attribute("value") : nullptr;
+    if (!list || !(first < last)) {
+        diagnostics.error(element.place(), "a regular spectrum needs a string 'values', and 'wavelength_min' "
+                                           "below 'wavelength_max'");
+        return false;
+    }
+    const auto y = read_number_list(*values, *list, diagnostics);
+    if (!y) return false;
+    if (y->size() < 2) {
+        diagnostics.error(values->value_place(*list), "a regular spectrum needs at least two values");
+        return false;
+    }
+    std::string pairs;
+    for (std::size_t i = 0; i < y->size(); ++i)
+        pairs += fmt::format(
+            "{}:{}, ", first + (last - first) * static_cast<double>(i) / static_cast<double>(y->size() - 1),
+            (*y)[i]);
+    return flatten_spectrum(element, {"wavelength_min", "wavelength_max", "values"}, "spectrum", pairs,
+                            diagnostics);
+}
+
 bool spectrum_object(Element& element, Diagnostics& diagnostics)
 {
     const std::string type = element.value("type");
@@ -157,7 +184,14 @@ bool spectrum_object(Element& element, Diagnostics& diagnostics)
     }
     if (type == "d65") {
         const double scale = number_of(element, "scale", 1.0, diagnostics);
-        return flatten({"scale"}, "float", fmt::format("{}", scale));
+        const Element* color = child_named(element, "color");
+        const Attribute* value = color && color->tag == "rgb" ? color->attribute("value") : nullptr;
+        if (!value) return flatten({"scale"}, "float", fmt::format("{}", scale));
+        const auto numbers = read_numbers(*color, *value, {3, 1}, diagnostics);
+        if (!numbers) return false;
+        const std::vector<double>& c = *numbers;
+        return flatten({"scale", "color"}, "rgb",
+                       triple(c[0] * scale, c[c.size() / 2] * scale, c[c.size() - 1] * scale));
     }
     if (type == "srgb") {
         const Element* color = child_named(element, "color");
@@ -178,6 +212,7 @@ bool spectrum_object(Element& element, Diagnostics& diagnostics)
         const Vec3d color = color_of_black_body(kelvin) * scale;
         return flatten({"temperature", "scale"}, "rgb", triple(color.x, color.y, color.z));
     }
+    if (type == "regular") return regular_spectrum(element, diagnostics);
     // irregular: two lists of the same length.
     const Element *wavelengths = child_named(element, "wavelengths"),
                   *values = child_named(element, "values");
@@ -203,7 +238,7 @@ bool spectrum_object(Element& element, Diagnostics& diagnostics)
 
 bool is_spectrum_object(const Element& element)
 {
-    constexpr std::string_view types[] = {"uniform", "d65", "srgb", "blackbody", "irregular"};
+    constexpr std::string_view types[] = {"uniform", "d65", "srgb", "blackbody", "irregular", "regular"};
     return (element.tag == "spectrum" || element.tag == "texture") &&
            std::find(std::begin(types), std::end(types), element.value("type")) != std::end(types);
 }
@@ -378,6 +413,22 @@ bool only_if_true(Element& parameter, Diagnostics& diagnostics)
     const Attribute* value = parameter.attribute("value");
     if (!value || parameter.tag != "boolean") return true;
     return read_boolean(parameter, *value, diagnostics).value_or(false);
+}
+
+bool only_rgb(Element& parameter, Diagnostics& diagnostics)
+{
+    const Attribute* value = parameter.attribute("value");
+    if (!value || value->broken) return false;
+    const std::string format = lower_case(value->value);
+    const std::vector<std::string_view> known = {"rgb",  "rgba",      "xyz",
+                                                 "xyza", "luminance", "luminance_alpha"};
+    if (std::find(known.begin(), known.end(), format) == known.end())
+        diagnostics.error(parameter.value_place(*value),
+                          fmt::format("unknown pixel_format '{}'{}", value->value, way_out(format, known)));
+    else if (format != "rgb" && format != "rgba")
+        diagnostics.warning(parameter.value_place(*value),
+                            fmt::format("the image is written as linear RGB, not as {}", format));
+    return false;
 }
 
 bool depth_minus_one(Element& parameter, Diagnostics& diagnostics)

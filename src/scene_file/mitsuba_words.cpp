@@ -15,7 +15,6 @@ namespace {
 constexpr std::string_view vacuum = "Plumb renders surfaces in a vacuum only";
 constexpr std::string_view as_mesh = "export it as a mesh";
 constexpr std::string_view as_envmap = "render it to an image and use 'envmap'";
-constexpr std::string_view estimates_light = "Plumb's integrators are estimators of light; use 'path'";
 constexpr std::string_view same_light =
     "this is rendered by 'path', which finds the same light up to noise (path_mis in 'renderer types')";
 
@@ -60,8 +59,14 @@ constexpr TypeName types[] = {
     {"integrator", "mlt", "path_mis", same_light},
     {"integrator", "pssmlt", "path_mis", same_light},
     {"integrator", "vcm", "path_mis", same_light},
+    {"integrator", "prb", "path_mis", same_light},
+    {"integrator", "prb_basic", "path_mis", same_light},
+    {"integrator", "prbvolpath", "path_mis", same_light},
+    {"integrator", "prb_projective", "path_mis", same_light},
+    {"integrator", "direct_projective", "path_mis", same_light},
     {"integrator", "moment", "moment"}, // their child takes their place
     {"integrator", "aov", "aov"},
+    {"integrator", "depth", "depth"},
 
     {"camera", "perspective", "perspective"},
     {"camera", "thinlens", "perspective"},
@@ -89,6 +94,7 @@ constexpr TypeName types[] = {
     {"shape", "cylinder", "cylinder"},
     {"shape", "shapegroup", "group"},
     {"shape", "instance", "instance"},
+    {"shape", "merge", "merge"}, // its shapes take its place
 
     {"bsdf", "diffuse", "diffuse"},
     {"bsdf", "dielectric", "dielectric"},
@@ -145,6 +151,7 @@ constexpr ParamName params[] = {
     {"camera", "thinlens", "aperture_radius", "lensRadius"},
     {"camera", "thinlens", "focus_distance", "focalDistance"},
 
+    {"film", "", "pixel_format", "", only_rgb},
     {"film", "", "width", "width"},
     {"film", "", "height", "height"},
     {"film", "", "crop_offset_x", "cropOffsetX"},
@@ -258,6 +265,12 @@ constexpr ParamName params[] = {
 
 constexpr Preset presets[] = {
     {"integrator", "direct", "integer", "maxDepth", "1"},
+    {"integrator", "direct_projective", "integer", "maxDepth", "1"},
+    {"integrator", "prb", "integer", "maxDepth", "5"},
+    {"integrator", "prb_basic", "integer", "maxDepth", "5"},
+    {"integrator", "prbvolpath", "integer", "maxDepth", "5"},
+    {"integrator", "prb_projective", "integer", "maxDepth", "5"},
+    {"integrator", "depth", "boolean", "inverse", "false"},
     {"integrator", "", "boolean", "countPasses", "true"},
     {"integrator", "", "integer", "rrDepth", "5"},
     {"camera", "perspective", "float", "nearClip", "0.01"},
@@ -319,7 +332,6 @@ constexpr Refusal refusals[] = {
     {"shape", "linearcurve", as_mesh},
     {"shape", "ellipsoids", as_mesh},
     {"shape", "ellipsoidsmesh", as_mesh},
-    {"shape", "merge", "write its shapes one by one"},
     {"bsdf", "hair", "use 'principled'"},
     {"bsdf", "measured", "use 'principled'"},
     {"bsdf", "polarizer", "Plumb's light is not polarised"},
@@ -338,23 +350,24 @@ constexpr Refusal refusals[] = {
     {"film", "specfilm", "use 'hdrfilm'"},
     {"film", "ldrfilm", "use 'hdrfilm'; 'renderer' also writes .png"},
     {"integrator", "stokes", "Plumb's light is not polarised"},
-    {"integrator", "depth", "use 'path' with --aov depth"},
-    {"integrator", "prb", estimates_light},
-    {"integrator", "prb_basic", estimates_light},
-    {"integrator", "prbvolpath", estimates_light},
 };
 
 constexpr Ignored ignored[] = {
     {"integrator", "direct", "emitter_samples"},
     {"integrator", "direct", "bsdf_samples"},
     {"integrator", "direct", "shading_samples"},
+    {"integrator", "direct_projective", "sppc"},
+    {"integrator", "direct_projective", "sppp"},
+    {"integrator", "direct_projective", "sppi"},
+    {"integrator", "prb_projective", "sppc"},
+    {"integrator", "prb_projective", "sppp"},
+    {"integrator", "prb_projective", "sppi"},
     {"integrator", "", "samples_per_pass"},
     {"integrator", "", "timeout"},
     {"integrator", "", "block_size"},
     {"camera", "perspective", "focus_distance"},
     {"camera", "", "shutter_open"},
     {"camera", "", "shutter_close"},
-    {"film", "", "pixel_format"},
     {"film", "", "component_format"},
     {"film", "", "file_format"},
     {"film", "", "banner"},
@@ -362,6 +375,12 @@ constexpr Ignored ignored[] = {
     {"sampler", "", "seed"},
     {"sampler", "", "jitter"},
     {"bsdf", "", "sample_visible"},
+    {"bsdf", "", "main_specular_sampling_rate"},
+    {"bsdf", "", "clearcoat_sampling_rate"},
+    {"bsdf", "", "diffuse_reflectance_sampling_rate"},
+    {"bsdf", "", "specular_reflectance_sampling_rate"},
+    {"bsdf", "", "diffuse_transmittance_sampling_rate"},
+    {"bsdf", "", "specular_transmittance_sampling_rate"},
     {"texture", "bitmap", "format"},
     {"texture", "bitmap", "accel"},
     {"emitter", "", "sampling_weight"},

@@ -204,8 +204,9 @@ private:
         const std::vector<std::string_view> known = known_parameters(kind, type);
         diagnostics_.add(
             options_.lenient ? Severity::warning : Severity::error, child.value_place(*attribute),
-            fmt::format("unknown {} '{}' for {} '{}'{}", child.tag == "texture" ? "texture" : "parameter",
-                        name, kind, type, known.empty() ? "; it takes none" : way_out(name, known)));
+            fmt::format("unknown {} '{}' for {}{}{}", child.tag == "texture" ? "texture" : "parameter", name,
+                        kind, type.empty() ? "" : fmt::format(" '{}'", type),
+                        known.empty() ? "; it takes none" : way_out(name, known)));
         return false;
     }
 

@@ -43,6 +43,7 @@ constexpr ConvertText convert_texts[] = {
     {uv_shift, "one or two numbers, added behind scales"},
     {u_shift, "a number added to u"},
     {v_shift, "a number added to v"},
+    {only_rgb, "checked; the image is linear RGB"},
 };
 
 std::string_view text_of(Convert convert)
@@ -73,7 +74,7 @@ std::string parameters_text(const Vocabulary& words, const TypeName& type)
             std::find(done.begin(), done.end(), row.theirs) != done.end())
             return;
         done.push_back(row.theirs);
-        std::string line = fmt::format("    {:<26}{}", row.theirs, row.ours);
+        std::string line = fmt::format("    {:<26}{}", row.theirs, row.ours.empty() ? "ignored" : row.ours);
         if (const std::string_view note = text_of(row.convert); !note.empty())
             line += fmt::format(", {}", note);
         text += line + "\n";
@@ -93,6 +94,14 @@ std::string parameters_text(const Vocabulary& words, const TypeName& type)
 }
 
 } // namespace
+
+std::vector<std::string_view> vocabulary_names()
+{
+    std::vector<std::string_view> names;
+    for (const DialectName dialect : all_dialects) names.push_back(to_string(dialect));
+    names.insert(names.end(), {"mitsuba3", "mitsuba06"});
+    return names;
+}
 
 const Vocabulary* vocabulary_named(std::string_view name)
 {

@@ -7,9 +7,12 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace plumb {
 
+// Those that vocabulary_named() knows.
+std::vector<std::string_view> vocabulary_names();
 // "mitsuba3", "mitsuba06", or a course; null for other names.
 const Vocabulary* vocabulary_named(std::string_view name);
 

@@ -5,6 +5,7 @@
 #include "build_paths.h"
 #include "cli/small_scene.h"
 #include "plumb/scene_file/scene_file.h"
+#include "scene_file/vocabulary_manual.h"
 #include "support/catch.h"
 
 using namespace plumb;
@@ -101,6 +102,50 @@ TEST_CASE("types lists every plugin and prints manuals", "[cli][types]")
     CHECK(manual.exit_code == 0);
     CHECK_THAT(manual.out, ContainsSubstring("bsdf 'diffuse'\n"));
     CHECK_THAT(manual.out, ContainsSubstring("    albedo "));
+}
+
+TEST_CASE("types --dialect prints what another language calls types and parameters", "[cli][types]")
+{
+    const SceneDirectory directory;
+    for (const std::string_view name : vocabulary_names()) {
+        INFO(name);
+        CHECK(directory.run({"types", "--dialect", std::string(name)}).exit_code == 0);
+    }
+    const RunResult list = directory.run({"types", "--dialect", "mitsuba3"});
+    for (const char* part : {"\n  hdrfilm           hdrfilm\n", "\n  blendbsdf         blend\n",
+                             "\nnot supported\n", "  shape 'sdfgrid': export it as a mesh\n"})
+        CHECK_THAT(list.out, ContainsSubstring(part));
+
+    // Each type has a manual that has each of its parameters, and so have those of the base.
+    const Vocabulary& words = *vocabulary_named("mitsuba06");
+    for (const Vocabulary* from = &words; from; from = from->base)
+        for (const TypeName& type : from->types) {
+            INFO(type.kind << " " << type.theirs);
+            const auto manual = manual_of_type(words, type.theirs);
+            REQUIRE(manual);
+            for (const ParamName& param : from->params)
+                if (param.kind == type.kind && param.type == type.theirs && param.theirs != "*")
+                    CHECK_THAT(*manual, ContainsSubstring("\n    " + std::string(param.theirs) + " "));
+        }
+    const RunResult manual = directory.run({"types", "--dialect", "mitsuba3", "path"});
+    for (const char* part : {"integrator 'path' of mitsuba3: 'path_mis' here\n",
+                             "    max_depth                 maxDepth, minus 1; -1 stays\n",
+                             "    (unless given)            rrDepth 5\n"})
+        CHECK_THAT(manual.out, ContainsSubstring(part));
+
+    const auto complaint = [&](const std::vector<std::string>& words_of_line) {
+        const RunResult result = directory.run(words_of_line);
+        CHECK(result.exit_code == 2);
+        return result.err;
+    };
+    CHECK(complaint({"types", "--dialect", "mitsuba4"}) ==
+          "error: --dialect: unknown dialect 'mitsuba4'; did you mean 'mitsuba3'?\n");
+    CHECK(complaint({"types", "--dialect", "x"}) ==
+          "error: --dialect: unknown dialect 'x'; known are plumb, epfl, eth, zaragoza, mcgill, mitsuba3, "
+          "mitsuba06\n");
+    CHECK(
+        complaint({"types", "--dialect", "mitsuba3", "velvet"}) ==
+        "error: mitsuba3 has no type 'velvet' of its own; 'renderer types --dialect mitsuba3' lists them\n");
 }
 
 TEST_CASE("info prints what the header knows", "[cli][info]")

@@ -95,6 +95,13 @@ std::vector<BsdfCase> make_cases()
          1},
         {bsdf("phong").color("specular-coefficients", Color(0.5f)).integer("exponent", 0), 1},
         {bsdf("phong").color("specular-coefficients", Color(1.f)).integer("exponent", 2000), 0.03},
+        {bsdf("ward"), 0.1},
+        {bsdf("ward")
+             .number("alphaU", 0.3)
+             .number("alphaV", 0.6)
+             .color("diffuseReflectance", Color(0.f))
+             .color("specularReflectance", Color(1.f, 0.5f, 0.f)),
+         0.3},
     };
     std::set<std::string> covered;
     for (const auto& one : cases) covered.insert(one.params.type());

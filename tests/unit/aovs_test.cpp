@@ -337,7 +337,68 @@ TEST_CASE("the order of AOVs' names does not matter, and unknown ones are refuse
         layers_of(Names{"colour"}),
         "unknown AOV 'colour'; known are albedo, albedo_behind, normal, normal_behind, "
         "geometric_normal, depth, depth_behind, depth_z, position, uv, coverage, object, "
-        "object_behind, material, material_behind, and variance_of_NAME of those that are no ids");
+        "object_behind, material, material_behind, mean_depth, mean_position, mean_uv, mean_normal, "
+        "mean_geometric_normal, mean_dp_du, mean_dp_dv, mean_object, mean_primitive, xyz, xyz_squared, and "
+        "variance_of_NAME of those that are no ids");
+}
+
+TEST_CASE("layers with names of their own", "[unit][aov]")
+{
+    CHECK(layer_names(layers_of(Names{"dd.y:mean_depth", "depth", "n-1:normal", "b:variance_of_depth"})) ==
+          "depth, dd.y, n-1, b");
+    const ChannelSet layers = layers_of(Names{"dd.y:mean_depth", "b:normal_behind"});
+    CHECK(layers.front().channel(0) == "dd.y.T");
+    CHECK(channel_set_from_text(to_text(layers)) == layers);
+    CHECK_THROWS_WITH(layers_of(Names{"depth", "depth:mean_depth"}), "two layers are called 'depth'");
+    CHECK_THROWS_WITH(layers_of(Names{"a:depth", "a:depth"}), "two layers are called 'a'");
+    CHECK_THROWS_WITH(layers_of(Names(65, "a:depth")), "there can be 64 layers, not 65");
+    for (const std::string bad : {"", ".a", "a.", "a b", "a:b", "variance", "\x1b"})
+        CHECK_THROWS(layers_of(Names{bad + ":depth"}));
+}
+
+TEST_CASE("a scene asks for layers itself", "[unit][aov]")
+{
+    const auto scene = [](const std::string& aovs) {
+        return start + "<string name='aovs' value='" + aovs + "'/>" + wall(2.f, -1.f, red) + "</scene>";
+    };
+    CHECK(load_text(scene("depth, dd.y:mean_depth")).aovs == Names{"depth", "dd.y:mean_depth"});
+    CHECK(load_text(scene("")).aovs.empty());
+    CHECK_THROWS_WITH(load_text(scene("colour")), ContainsSubstring("unknown AOV 'colour'"));
+}
+
+// What mean_NAME is of: all samples, whatever they see.
+TEST_CASE("means over all samples count what sees nothing as 0", "[unit][aov]")
+{
+    const Rendered half(wall(2.f, 0.f, red), 40.f, 256);
+    Rendered::each([&](int x, int y) {
+        const float coverage = half.at(x, y, "coverage.A");
+        CHECK_THAT(half.at(x, y, "mean_depth.T"), WithinAbs(half.at(x, y, "depth.Z") * coverage, 1e-4));
+        CHECK_THAT(half.at(x, y, "mean_uv.U"), WithinAbs(half.at(x, y, "uv.U") * coverage, 1e-4));
+        CHECK_THAT(half.at(x, y, "mean_object.I"), WithinAbs(coverage, 1e-4));
+        CHECK_THAT(half.at(x, y, "mean_position.Z"), WithinAbs(2.f * coverage, 1e-4));
+    });
+}
+
+TEST_CASE("moments of light are those of the image", "[unit][aov]")
+{
+    // Rec. 709 white and its square; a constant light has no variance.
+    const Rendered lit("<emitter type='environment'><color name='radiance' value='0.5 0.5 0.5'/></emitter>");
+    Rendered::each([&](int x, int y) {
+        CHECK_THAT(lit.at(x, y, "xyz.X"), WithinAbs(0.475228, 1e-5));
+        CHECK_THAT(lit.at(x, y, "xyz.Y"), WithinAbs(0.5, 1e-5));
+        CHECK_THAT(lit.at(x, y, "xyz.Z"), WithinAbs(0.544377, 1e-5));
+        CHECK_THAT(lit.at(x, y, "xyz_squared.Y"), WithinAbs(0.25, 1e-5));
+    });
+    // Of a noisy one: the second moment is the variance of one sample and the square of the mean.
+    const Rendered noisy("<emitter type='point'><point name='position' value='0 0 1'/></emitter>" +
+                             wall(2.f, 0.f, red),
+                         40.f, 4096, "path_mis");
+    Rendered::each([&](int x, int y) {
+        const double y1 = static_cast<double>(noisy.at(x, y, "xyz.Y"));
+        const double y2 = static_cast<double>(noisy.at(x, y, "xyz_squared.Y"));
+        const double variance = static_cast<double>(noisy.at(x, y, "variance_of_xyz.Y")) * 4096.0;
+        CHECK_THAT(y2 - y1 * y1, WithinAbs(variance, 1e-3 * (variance + y1 * y1)));
+    });
 }
 
 TEST_CASE("a rendering goes on with its own layers only", "[unit][aov]")

@@ -247,6 +247,128 @@ TEST_CASE("what is shared speaks the words of the file, too", "[unit][mitsuba]")
         CHECK(error(scene) == "int_ior must be in [0.01, 100], not -3");
 }
 
+TEST_CASE("references to emitters, films and samplers", "[unit][mitsuba]")
+{
+    const std::string flip = "<boolean name='flipU' value='true'/>";
+    CHECK(read("<emitter type='area' id='e'><rgb name='radiance' value='2 1 1'/></emitter>"
+               "<shape type='sphere'><ref id='e'/><bsdf type='diffuse'/></shape>"
+               "<shape type='sphere'><ref name='emitter' id='e'/><bsdf type='diffuse'/></shape>" +
+               rest)
+              .text ==
+          std::string("<shape type='sphere'><emitter type='area'><color name='radiance' value='2 1 1'/>"
+                      "</emitter><bsdf type='diffuse'/>" +
+                      flip +
+                      "</shape><shape type='sphere'><emitter type='area'><color name='radiance' "
+                      "value='2 1 1'/></emitter><bsdf type='diffuse'/>" +
+                      flip + "</shape>"));
+    const Read outside = read("<integrator type='path'/><film type='hdrfilm' id='f'><ref id='r'/></film>"
+                              "<rfilter type='box' id='r'/><sampler type='independent' id='s'/>"
+                              "<sensor type='perspective'><ref id='f'/><ref id='s'/></sensor>");
+    CHECK(outside.messages.empty());
+    CHECK(messages("<film type='hdrfilm' id='f'><ref id='f'/></film><sensor type='perspective'><ref "
+                   "id='f'/></sensor>")
+              .find("'f' contains itself") != std::string::npos);
+    // An instance's group may have a name.
+    CHECK(read("<shape type='shapegroup' id='g'/><shape type='instance'><ref name='shapegroup' "
+               "id='g'/></shape>" +
+               rest)
+              .messages.empty());
+}
+
+TEST_CASE("what people's files have beside shapes and materials", "[unit][mitsuba]")
+{
+    CHECK(read("<shape type='merge'><shape type='sphere'/><shape type='merge'><shape type='disk'/></shape>"
+               "</shape>" +
+               rest)
+              .text ==
+          "<shape type='sphere'><boolean name='flipU' value='true'/></shape><shape type='disk'/>");
+    CHECK(bsdf("<spectrum type='regular' name='reflectance'><float name='wavelength_min' value='360'/><float "
+               "name='wavelength_max' value='830'/><string name='values' value='.5 .5'/></spectrum>") ==
+          bsdf("<spectrum name='reflectance' value='360:.5 830:.5'/>"));
+    CHECK(messages("<bsdf type='diffuse' id='m'><spectrum type='regular' name='reflectance'/></bsdf>") ==
+          "a.xml:1:52: error: a regular spectrum needs a string 'values', and 'wavelength_min' below "
+          "'wavelength_max'\n");
+    CHECK(
+        read("<emitter type='constant'><spectrum type='d65' name='radiance'><rgb name='color' value='1 2 3'/>"
+             "<float name='scale' value='2'/></spectrum></emitter>" +
+             rest)
+            .text == "<emitter type='environment'><color name='radiance' value='2, 4, 6'/></emitter>");
+    const auto film = [](const std::string& format) {
+        return read("<integrator type='path'/><sensor type='perspective'><film type='hdrfilm'><string "
+                    "name='pixel_format' value='" +
+                    format + "'/></film></sensor>")
+            .messages;
+    };
+    CHECK(film("rgb").empty());
+    CHECK(film("RGBA").empty());
+    CHECK_THAT(film("luminance"),
+               ContainsSubstring("warning: the image is written as linear RGB, not as luminance"));
+    CHECK_THAT(film("rgbb"), ContainsSubstring("error: unknown pixel_format 'rgbb'; did you mean 'rgb"));
+    // The sampling of a BSDF is Plumb's business.
+    CHECK(messages("<bsdf type='principled' id='m'><float name='clearcoat_sampling_rate' value='2'/></bsdf>")
+              .empty());
+}
+
+TEST_CASE("spectra in files", "[unit][mitsuba]")
+{
+    const TempDirectory directory;
+    directory.write("a.spd", "# nm value\n360 0.25\n\n500 .5 # here\n830\t1\r\n");
+    directory.write("b.spd", "360 secret\n");
+    directory.write("c.spd", "# nothing\n");
+    const auto load = [&](const std::string& name) -> std::string {
+        const auto file =
+            directory.write("scene.xml", "<scene version='3.0.0'>" + rest +
+                                             "<emitter type='constant'><spectrum name='radiance' filename='" +
+                                             name + "'/></emitter></scene>");
+        try {
+            const LoadedScene scene = SceneFile(file, {}).load({}, {});
+            return scene.warnings.empty() ? "fine" : scene.warnings.front().message;
+        } catch (const SceneError& refused) {
+            return refused.diagnostics().front().message;
+        }
+    };
+    CHECK(load("a.spd") == "fine");
+    CHECK_THAT(load("b.spd"), ContainsSubstring("b.spd', line 1: expected a wavelength and a value"));
+    CHECK_THAT(load("b.spd"), !ContainsSubstring("secret"));
+    CHECK_THAT(load("c.spd"), ContainsSubstring("has no wavelengths"));
+    CHECK_THAT(load("none.spd"), ContainsSubstring("none.spd"));
+}
+
+TEST_CASE("the channels of Mitsuba's aov and moment become layers", "[unit][mitsuba][aov]")
+{
+    const TempDirectory directory;
+    const std::string sensor = "<sensor type='perspective'><float name='fov' value='40'/></sensor>";
+    std::string warned;
+    const auto aovs = [&](const std::string& integrator) {
+        const LoadedScene scene =
+            SceneFile(
+                directory.write("scene.xml", "<scene version='3.0.0'>" + integrator + sensor + "</scene>"),
+                {})
+                .load({}, {});
+        warned.clear();
+        for (const Diagnostic& warning : scene.warnings) warned += warning.message + "\n";
+        std::string text;
+        for (const std::string& aov : scene.aovs) text += aov + " ";
+        return text;
+    };
+    const std::string path = "<integrator type='path' name='img'/>";
+    CHECK(aovs("<integrator type='aov'><string name='aovs' value='dd.y:depth, nn:sh_normal,p:position'/>" +
+               path + "</integrator>") == "dd.y:mean_depth nn:mean_normal p:mean_position ");
+    CHECK(warned.empty());
+    CHECK(aovs("<integrator type='aov'><string name='aovs' value='a:albedo,x:duv_dx,noname'/>" + path +
+               "</integrator>") == "a:albedo ");
+    CHECK_THAT(warned, ContainsSubstring("the channel 'x:duv_dx' is not written"));
+    CHECK_THAT(warned, ContainsSubstring("the channel 'noname' is not written"));
+    CHECK_THAT(warned, ContainsSubstring("'albedo' is all that a surface reflects"));
+    CHECK(aovs("<integrator type='moment'>" + path + "</integrator>") == "img:xyz m2_img:xyz_squared ");
+    CHECK(aovs("<integrator type='moment'><integrator type='aov' name='o'><string name='aovs' "
+               "value='d:depth'/>" +
+               path + "</integrator></integrator>") == "o:xyz m2_o:xyz_squared o.d:mean_depth ");
+    CHECK(aovs("<integrator type='aov'><string name='aovs' value='d:depth'/></integrator>") ==
+          "d:mean_depth ");
+    CHECK(aovs("<integrator type='path'/>").empty());
+}
+
 TEST_CASE("what is missing in a Mitsuba scene", "[unit][mitsuba]")
 {
     CHECK(read("<sensor type='perspective'/>").messages ==
@@ -286,4 +408,29 @@ TEST_CASE("files of Mitsuba 0.4 to 0.6", "[unit][mitsuba]")
         ContainsSubstring("Planck's law"));
     CHECK(read("<emitter type='constant'><spectrum name='radiance' value='2'/></emitter>" + rest, "0.6.0")
               .text == "<emitter type='environment'><color name='radiance' value='2, 2, 2'/></emitter>");
+
+    const auto bsdf_of = [](const std::string& inner) {
+        const Read result = read(inner + rest, "0.6.0");
+        CHECK(result.messages.empty());
+        return result.text;
+    };
+    CHECK(bsdf_of("<bsdf type='phong' id='m'><spectrum name='specularReflectance' value='.3'/></bsdf>") ==
+          "<bsdf type='phong' id='m'><color name='specular-coefficients' value='0.3, 0.3, 0.3'/><color "
+          "name='diffuse-coefficients' value='0.5 0.5 0.5'/><float name='exponent' value='30'/></bsdf>");
+    CHECK(
+        bsdf_of("<bsdf type='mixturebsdf' id='m'><string name='weights' value='.5 .5'/><bsdf type='diffuse'/>"
+                "<bsdf type='diffuse'/></bsdf>") ==
+        "<bsdf type='mixture' id='m'><string name='weights' value='.5 .5'/><bsdf type='diffuse'/><bsdf "
+        "type='diffuse'/></bsdf>");
+    CHECK_THAT(
+        bsdf_of(
+            "<bsdf type='coating' id='m'><float name='intIOR' value='1.7'/><bsdf type='diffuse'/></bsdf>"),
+        ContainsSubstring("<float name='intIOR' value='1.7'/>"));
+    CHECK_THAT(
+        read("<bsdf type='ward' id='m'><string name='variant' value='ward-duer'/></bsdf>" + rest, "0.6.0")
+            .messages,
+        ContainsSubstring("the variant 'ward-duer' is rendered as 'balanced'"));
+    CHECK_THAT(
+        read("<bsdf type='roughcoating' id='m'><bsdf type='diffuse'/></bsdf>" + rest, "0.6.0").messages,
+        ContainsSubstring("rendered as 'coating'"));
 }

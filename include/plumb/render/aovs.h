@@ -4,6 +4,7 @@
 // AOVs (arbitrary output variables): what a camera sample sees first, as layers of a film. A new one is a row of the table in
 // aovs.cpp.
 
+#include "plumb/math/color.h"
 #include "plumb/render/channel_set.h"
 
 #include <optional>
@@ -32,12 +33,18 @@ struct AovRow {
     std::uint32_t (*identify)(const SeenSurface& seen, const AovView& view);
     // Of an id: what the ids from 1 are.
     std::vector<std::string> (*table)(const Scene& scene);
+    // Instead of both: of the light that the sample found, whatever it saw.
+    void (*of_radiance)(const Color& radiance, float* values) = nullptr;
 };
 std::span<const AovRow> aov_rows();
 // Of all layers: those of the rows, NAME_behind, and variance_of_NAME of each that is no id.
 std::vector<std::string> aov_names();
 
-// The layers of these names, each once, in the table's order whatever the order of the names. Throws Error for an unknown name.
+// What is asked for is a NAME of these, or LAYER:NAME, whose layer is called LAYER in the file: letters, digits, '_', '-' and
+// inner dots. So the same NAME can be there more than once.
+
+// The layers: those without a name of their own first, in the table's order, each once; then the others as they come. Throws
+// Error for an unknown name, and for two layers of one name.
 ChannelSet layers_of(std::span<const std::string> names);
 
 // Of each layer of ids among the names: its name, and what the ids from 1 are.
@@ -74,7 +81,7 @@ public:
         std::vector<float> values;
         std::vector<std::uint32_t> ids;
     };
-    LayerSample measure(const FirstSurfaces& first, Values& room) const;
+    LayerSample measure(const FirstSurfaces& first, const Color& radiance, Values& room) const;
 
 private:
     struct Wanted {

@@ -40,6 +40,9 @@ struct Layer {
     std::string channel(std::size_t component) const { return name + "." + components[component]; }
 };
 
+// Letters, digits, '_', '-' and inner dots; up to 64 of them.
+bool is_layer_name(std::string_view text);
+
 inline constexpr std::size_t max_layers = 64;
 
 // Two films with equal ones have the same channels and may be added. Empty: beauty only.

@@ -8,6 +8,7 @@
 #include "plumb/settings/render_settings.h"
 
 #include <string>
+#include <vector>
 
 namespace plumb {
 
@@ -20,6 +21,9 @@ struct RenderTask {
     RenderOptions
         options; // of the settings; samples_per_pixel is settled: of the scene file where the settings have none
 };
+
+// The layers of the settings, then those of the scene's file that are not among them.
+std::vector<std::string> aovs_of(const ViewSettings& view, const LoadedScene& scene);
 
 // settings: those of the scene are the file's. Throws what SceneFile::load() throws.
 RenderTask make_task(SceneFile& file, const RenderSettings& settings);

@@ -33,6 +33,7 @@ struct LoadedScene {
     Dialect dialect;
     std::string integrator; // type names, for the header
     std::string sampler;
+    std::vector<std::string> aovs; // the layers that the file asks for, as in --aov
     std::vector<InputFile> inputs; // scene files, meshes, images
     std::string input_hash;        // of them all and of what options and dialect make of them; 32 hex digits
     std::vector<std::string> changed_readings; // what meant something else in version 1 of the language

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace plumb {
 
@@ -101,9 +102,36 @@ bool print_element_manual(std::string_view name)
                                   : fmt::format("unknown type '{}'; did you mean '{}'?", name, near));
 }
 
-int run(const VerbOptions& options)
+struct Options : VerbOptions {
+    std::string dialect;
+};
+
+// What a dialect calls its types and parameters.
+void print_vocabulary(const std::string& dialect, const std::string& name)
+{
+    const Vocabulary* words = vocabulary_named(dialect);
+    if (!words) {
+        const std::vector<std::string_view> known = vocabulary_names();
+        const std::string_view near = closest_name(dialect, known);
+        throw UsageError(fmt::format("--dialect: unknown dialect '{}'; {}", dialect,
+                                     near.empty() ? fmt::format("known are {}", fmt::join(known, ", "))
+                                                  : fmt::format("did you mean '{}'?", near)));
+    }
+    if (name.empty()) return print_output(types_of_vocabulary(*words));
+    const std::optional<std::string> manual = manual_of_type(*words, name);
+    if (!manual)
+        throw UsageError(fmt::format(
+            "{0} has no type '{1}' of its own; 'renderer types --dialect {0}' lists them", dialect, name));
+    print_output(*manual);
+}
+
+int run(const Options& options)
 {
     const std::string name = options.subjects.empty() ? "" : options.subject();
+    if (!options.dialect.empty()) {
+        print_vocabulary(options.dialect, name);
+        return exit_code::done;
+    }
     if (name.empty()) {
         print_list();
         print_elements();
@@ -120,8 +148,14 @@ int run(const VerbOptions& options)
 struct TypesVerb {
     static Verb make()
     {
-        return make_verb<VerbOptions>({"types", "[NAME]", "list all types, or print a manual", "name", 0, 1},
-                                      help_option<VerbOptions>(), run);
+        return make_verb<Options>(
+            {"types", "[NAME]", "list all types, or print a manual", "name", 0, 1},
+            join<Options>({text_option<Options>(Topic::scene, "--dialect", "NAME",
+                                                "in the words of mitsuba3, mitsuba06 or a course, with what\n"
+                                                "they are called here",
+                                                &Options::dialect, "name"),
+                           help_option<Options>()}),
+            run);
     }
 };
 template const Verb& verb<TypesVerb>();
