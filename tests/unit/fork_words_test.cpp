@@ -297,7 +297,7 @@ TEST_CASE("a spot's power and quartic fall-off are pbrt's", "[unit][vocabulary][
         if (cosine < 0.5)
             CHECK_FALSE(light);
         else
-            CHECK(light->radiance.x == Approx(intensity * part).epsilon(1e-4));
+            CHECK(light->radiance[0] == Approx(intensity * part).epsilon(1e-4));
     }
     // The integral of the fall-off over the sphere: 1 - 0.8 + 0.3 / 5 of 2 pi.
     CHECK(spot.power() == Approx(intensity * 2.0 * pi_d * 0.26).epsilon(1e-5));
@@ -307,4 +307,16 @@ TEST_CASE("a spot's power and quartic fall-off are pbrt's", "[unit][vocabulary][
                       "<emitter type='spot'><color name='power' value='1 1 1'/><color name='intensity' "
                       "value='1 1 1'/></emitter></scene>"),
                ContainsSubstring("power cannot be given together with intensity"));
+}
+
+TEST_CASE("the page of the scene language lists every type of the forks", "[unit][vocabulary]")
+{
+    const std::string page =
+        read_bytes(std::filesystem::path(PLUMB_SOURCE_DIR) / "docs" / "scene-language.md");
+    for (const TypeName& row : fork_words.types) {
+        CAPTURE(row.kind, row.theirs);
+        const std::size_t name =
+            page.find(fmt::format("`{}`", row.theirs), page.find("## Words of Nori's forks"));
+        REQUIRE(name != page.npos);
+    }
 }

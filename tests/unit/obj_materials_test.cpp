@@ -57,9 +57,9 @@ Faces load_faces(const std::string& inner, const std::string& obj_text = mesh,
 
 void check_near(const Color& a, const Color& b)
 {
-    CHECK(a.x == Approx(b.x));
-    CHECK(a.y == Approx(b.y));
-    CHECK(a.z == Approx(b.z));
+    CHECK(a[0] == Approx(b[0]));
+    CHECK(a[1] == Approx(b[1]));
+    CHECK(a[2] == Approx(b[2]));
 }
 
 void check_faces(const Faces& faces, const Color& first, const Color& second,
@@ -196,7 +196,7 @@ TEST_CASE("numbers of MTL files are finite and in range", "[unit][obj][materials
     REQUIRE(materials.size() == 1);
     const MtlMaterial& m = materials.front();
     for (const float x :
-         {m.diffuse.x, m.diffuse.y, m.diffuse.z, m.exponent, m.index, m.dissolve, m.roughness}) {
+         {m.diffuse[0], m.diffuse[1], m.diffuse[2], m.exponent, m.index, m.dissolve, m.roughness}) {
         CHECK(std::isfinite(x));
         CHECK(x >= 0.f);
     }
