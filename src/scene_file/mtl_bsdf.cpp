@@ -180,7 +180,7 @@ private:
     {
         const auto limited = [](float c) { return std::min(c, 1.f); };
         add(element, "color", name,
-            fmt::format("{} {} {}", limited(color.x), limited(color.y), limited(color.z)));
+            fmt::format("{} {} {}", limited(color[0]), limited(color[1]), limited(color[2])));
     }
 
     void remark(std::string text) { remarks_.push_back(std::move(text)); }
