@@ -78,8 +78,7 @@ private:
             return bsdf;
         }
         const bool is_glossy = !m_.specular.is_black() && m_.exponent > 0.f && m_.illumination != 1;
-        if (is_glossy && m_.diffuse_map.file.empty()) return phong();
-        if (is_glossy) return glossy_image();
+        if (is_glossy) return exists(m_.diffuse_map) ? glossy_image() : phong();
         Element bsdf = made_object(at_, "bsdf", "diffuse");
         add_base(bsdf, "albedo");
         return bsdf;
@@ -100,6 +99,7 @@ private:
 
     Element phong()
     {
+        if (!m_.diffuse_map.file.empty()) remark_missing(m_.diffuse_map);
         remark("Kd, Ks and Ns become 'phong'");
         Element bsdf = made_object(at_, "bsdf", "phong");
         add(bsdf, "diffuse-coefficients", m_.diffuse);
@@ -136,15 +136,22 @@ private:
             add(bsdf, "float", name, fmt::format("{}", std::min(value, 1.f)));
     }
 
+    bool exists(const MtlMap& map) const
+    {
+        std::error_code status;
+        return !map.file.empty() && std::filesystem::is_regular_file(directory_ / map.file, status);
+    }
+
+    void remark_missing(const MtlMap& map) { remark(fmt::format("there is no image '{}'", map.file)); }
+
     std::optional<Element> texture(const char* name, const MtlMap& map, bool raw)
     {
         if (map.file.empty()) return {};
-        const std::filesystem::path file = directory_ / map.file;
-        std::error_code status;
-        if (!std::filesystem::is_regular_file(file, status)) {
-            remark(fmt::format("there is no image '{}'", map.file));
+        if (!exists(map)) {
+            remark_missing(map);
             return {};
         }
+        const std::filesystem::path file = directory_ / map.file;
         Element texture = made_object(at_, "texture", "bitmap");
         set_attribute(texture, "name", name);
         add(texture, "string", "filename", std::filesystem::absolute(file).string());

@@ -3,6 +3,7 @@
 // What Nori's forks call things: every row of the table, and what takes more than a row.
 
 #include "plumb/model/emitter.h"
+#include "plumb/model/shape.h"
 #include "plumb/scene/scene.h"
 #include "scene_file/catalog.h"
 #include "scene_file/folded_name.h"

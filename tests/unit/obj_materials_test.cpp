@@ -3,6 +3,7 @@
 // The BSDFs of the faces of an OBJ mesh: by name from the scene, else from the MTL file.
 
 #include "plumb/model/bsdf.h"
+#include "plumb/model/shape.h"
 #include "plumb/shapes/mtl.h"
 #include "scene_file/mtl_bsdf.h"
 #include "support/catch.h"
