@@ -46,24 +46,29 @@ SuiteResult SuiteRunner::run(const SuiteJob& job)
     reference_.reset();
     SuiteResult result = result_of(job);
     const auto start = std::chrono::steady_clock::now();
-    const auto fail = [&](std::string problem) {
+    const auto fail = [&](std::vector<Diagnostic> errors) {
         result.state = JobState::failed;
-        result.problem = std::move(problem);
+        result.errors = std::move(errors);
+        for (const Diagnostic& error : result.errors)
+            result.problem += (result.problem.empty() ? "" : "\n") + error.text();
+    };
+    const auto fail_because = [&](std::string message) {
+        fail({Diagnostic{Severity::error, {}, std::move(message)}});
     };
     try {
         do_job(job, result);
     } catch (const SceneError& error) {
-        fail(error.what());
+        fail(error.diagnostics());
     } catch (const ProgramError& error) {
         result.program = error.run();
-        fail(Diagnostic{Severity::error, error.location(), error.what()}.text() +
-             output_text(error.run().output));
+        fail({Diagnostic{Severity::error, error.location(), error.what()}});
+        result.problem += output_text(error.run().output);
     } catch (const FileError& error) {
-        fail(Diagnostic{Severity::error, error.location(), error.what()}.text());
+        fail({Diagnostic{Severity::error, error.location(), error.what()}});
     } catch (const std::bad_alloc&) {
-        fail("error: not enough memory");
+        fail_because("not enough memory");
     } catch (const std::exception& error) {
-        fail("error: " + visible_text(error.what()));
+        fail_because(error.what());
     }
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return result;

@@ -75,6 +75,7 @@ struct SuiteResult {
     double seconds = 0.0;           // for all of it
     bool interrupted = false;       // before all samples were taken
     std::string problem;            // of an error: the text of all that is wrong
+    std::vector<Diagnostic> errors; // the same, one by one
     std::vector<std::string> warnings;
     std::optional<double> noise; // the root mean squared error that the image's own noise makes expect
     std::string biases;          // empty: none

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "cli/console.h"
+#include "cli/outputs.h"
 #include "cli/verb_file.h"
+#include "rendering/output_files.h"
 #include "reports/exit_codes.h"
+#include "reports/facts_json.h"
 
 #include "base/visible_text.h"
 #include "render/sample_text.h"
@@ -54,10 +57,23 @@ void print_value(const std::string& name, const std::vector<float>& values)
     }
 }
 
-int run(const VerbOptions& options)
+struct Options : VerbOptions {
+    std::string json;
+};
+
+void settle(Options& options)
+{
+    check_output_names({}, {{"--json", options.json}});
+}
+
+int run(const Options& options)
 {
     const std::string& file = options.subject();
+    check_outputs({}, options.json);
+    KeptFiles({file}).refuse(with_json({}, options.json), "it is the image to read");
     const Image image = read_image(file, false);
+    write_json(options.json, info_json(file, image));
+    if (options.json == "-") return exit_code::done;
     print_output(visible_text(file) + "\n");
     print_row("size", fmt::format("{} x {}", image.full_width(), image.full_height()));
     const PixelRect& window = image.data_window();
@@ -76,8 +92,8 @@ int run(const VerbOptions& options)
 struct InfoVerb {
     static Verb make()
     {
-        return make_verb<VerbOptions>({"info", "IMAGE", "print the header of an image", "image", 1, 1},
-                                      help_option<VerbOptions>(), run);
+        return make_verb<Options>({"info", "IMAGE", "print the header of an image", "image", 1, 1},
+                                  join<Options>({json_option<Options>(), help_option<Options>()}), run, settle);
     }
 };
 template const Verb& verb<InfoVerb>();

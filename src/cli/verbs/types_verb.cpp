@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "cli/console.h"
+#include "cli/outputs.h"
 #include "cli/usage_error.h"
 #include "cli/verb_file.h"
 #include "plumb/scene_file/scene_file.h"
 #include "reports/exit_codes.h"
+#include "reports/facts_json.h"
 #include "scene_file/catalog.h"
 #include "scene_file/element_manuals.h"
 #include "scene_file/foreign_names.h"
@@ -99,9 +101,31 @@ bool print_element_manual(std::string_view name)
                                   : fmt::format("unknown type '{}'; did you mean '{}'?", name, near));
 }
 
-int run(const VerbOptions& options)
+struct Options : VerbOptions {
+    std::string json;
+};
+
+void settle(Options& options)
+{
+    check_output_names({}, {{"--json", options.json}});
+}
+
+bool is_known(std::string_view name)
+{
+    const auto& types = known_types();
+    return find_element_manual(name) ||
+           std::any_of(types.begin(), types.end(), [&](const TypeInfo& type) { return type.name == name; });
+}
+
+int run(const Options& options)
 {
     const std::string name = options.subjects.empty() ? "" : options.subject();
+    if (!options.json.empty()) {
+        if (!name.empty() && !is_known(name)) reject_name(name);
+        check_outputs({}, options.json);
+        write_json(options.json, types_json(name));
+        return exit_code::done;
+    }
     if (name.empty()) {
         print_list();
         print_elements();
@@ -116,8 +140,8 @@ int run(const VerbOptions& options)
 struct TypesVerb {
     static Verb make()
     {
-        return make_verb<VerbOptions>({"types", "[NAME]", "list all types, or print a manual", "name", 0, 1},
-                                      help_option<VerbOptions>(), run);
+        return make_verb<Options>({"types", "[NAME]", "list all types, or print a manual", "name", 0, 1},
+                                  join<Options>({json_option<Options>(), help_option<Options>()}), run, settle);
     }
 };
 template const Verb& verb<TypesVerb>();
