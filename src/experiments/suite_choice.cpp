@@ -40,8 +40,8 @@ std::vector<SuiteJob> reference_makers(const std::vector<SuiteJob>& jobs, const 
     for (const SuiteJob& job : chosen) {
         const fs::path& reference = job.entry.reference;
         if (reference.empty() || std::any_of(makers.begin(), makers.end(), with(reference))) continue;
-        const auto can_make = [&](const SuiteJob& job) {
-            return job.entry.reference == reference && !job.entry.scene.empty();
+        const auto can_make = [&reference](const SuiteJob& one) {
+            return one.entry.reference == reference && !one.entry.scene.empty();
         };
         const auto found = std::find_if(jobs.begin(), jobs.end(), can_make);
         if (found == jobs.end()) continue; // no scene: it comes from elsewhere

@@ -6,6 +6,7 @@
 
 #include "base/shell_words.h"
 #include "base/text_file.h"
+#include "plumb/base/hash.h"
 #include "rendering/origin.h"
 #include "rendering/provenance.h"
 #include "settings/options_text.h"
