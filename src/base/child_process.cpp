@@ -165,7 +165,8 @@ public:
         kill(-process_, SIGKILL); // what it has left behind; its number is still its own
         int status = 0;
         rusage usage{};
-        while (wait4(process_, &status, 0, &usage) < 0 && errno == EINTR) {}
+        while (wait4(process_, &status, 0, &usage) < 0 && errno == EINTR) {
+        }
         run_.seconds = seconds_since(start_);
         read_output();
         note_end(status, static_cast<std::uint64_t>(usage.ru_maxrss) * 1024);

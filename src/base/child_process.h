@@ -12,12 +12,13 @@
 namespace plumb {
 
 struct ChildOptions {
-    std::filesystem::path program;               // the file to execute
-    std::vector<std::string> words;              // its arguments, the name that it is called by first
-    std::filesystem::path directory;             // that it starts in
-    std::vector<std::string> environment = {};   // "NAME=VALUE", instead of what this process has under the name
-    double timeout = 600.0;                      // seconds
-    const std::atomic<bool>* stop = nullptr;     // somebody may set it: then the program ends, too
+    std::filesystem::path program;   // the file to execute
+    std::vector<std::string> words;  // its arguments, the name that it is called by first
+    std::filesystem::path directory; // that it starts in
+    std::vector<std::string> environment =
+        {};                                  // "NAME=VALUE", instead of what this process has under the name
+    double timeout = 600.0;                  // seconds
+    const std::atomic<bool>* stop = nullptr; // somebody may set it: then the program ends, too
 };
 
 struct ChildRun {

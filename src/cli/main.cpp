@@ -63,7 +63,8 @@ int main(int argc, char** argv)
     } catch (const SceneError& error) {
         return complain(exit_code::error, words, error.diagnostics());
     } catch (const FileError& error) {
-        return complain(exit_code::error, words, {Diagnostic{Severity::error, error.location(), error.what()}});
+        return complain(exit_code::error, words,
+                        {Diagnostic{Severity::error, error.location(), error.what()}});
     } catch (const std::bad_alloc&) {
         return complain(exit_code::error, words, "not enough memory");
     } catch (const std::system_error& error) {

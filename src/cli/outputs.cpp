@@ -60,7 +60,8 @@ std::string json_destination_of_errors(const std::vector<std::string>& words)
     std::string found;
     for (std::size_t i = 0; found.empty() && i < words.size(); ++i) {
         if (words[i].starts_with(std::string(option) + "=")) found = words[i].substr(option.size() + 1);
-        if (words[i] == option && i + 1 < words.size() && !words[i + 1].starts_with("--")) found = words[i + 1];
+        if (words[i] == option && i + 1 < words.size() && !words[i + 1].starts_with("--"))
+            found = words[i + 1];
     }
     std::error_code ignored;
     if (!is_file(found) || !std::filesystem::exists(found, ignored)) return found;

@@ -353,8 +353,8 @@ private:
                 }
                 if (!rejected[square]) continue;
                 differs_[i] = 1;
-                rejected_by_[i] = squares.size == 0 ? Significance::whole_image
-                                                    : static_cast<std::uint16_t>(squares.size);
+                rejected_by_[i] =
+                    squares.size == 0 ? Significance::whole_image : static_cast<std::uint16_t>(squares.size);
             }
         }
     }
@@ -445,9 +445,9 @@ private:
     const ComparedImage& a_;
     const ComparedImage& b_;
     const CompareSettings& options_;
-    std::vector<char> counted_; // finite in both
-    std::vector<char> differs_; // in a square that was rejected
-    std::vector<char> covered_; // in a square that was tested
+    std::vector<char> counted_;              // finite in both
+    std::vector<char> differs_;              // in a square that was rejected
+    std::vector<char> covered_;              // in a square that was tested
     std::vector<std::uint16_t> rejected_by_; // Significance::rejected_by
     DifferenceNoise noise_;
     std::vector<int> sizes_;

@@ -28,7 +28,12 @@ enum class State : std::uint8_t { usable, unusable, differs };
 class Tester {
 public:
     Tester(const ComparedImage& a, const ComparedImage& b, const CompareSettings& options)
-        : a_(a), b_(b), options_(options), states_(a.pixels(), State::usable), covered_(a.pixels(), false), rejected_by_(a.pixels(), 0)
+        : a_(a),
+          b_(b),
+          options_(options),
+          states_(a.pixels(), State::usable),
+          covered_(a.pixels(), false),
+          rejected_by_(a.pixels(), 0)
     {
         sampling_ = {a.samples_per_pixel, b.samples_per_pixel, a.is_exact, b.is_exact,
                      options.rounding,    a.inflation,         b.inflation};
@@ -233,7 +238,7 @@ private:
     Sampling sampling_;
     std::vector<State> states_;
     std::vector<bool> covered_;                              // in a square that was tested
-    std::vector<std::uint16_t> rejected_by_; // Significance::rejected_by
+    std::vector<std::uint16_t> rejected_by_;                 // Significance::rejected_by
     std::vector<std::vector<std::vector<UnitSums>>> around_; // of each size of surroundings, in each channel
 };
 

@@ -125,9 +125,7 @@ std::string foreign_key(const ForeignJob& job)
     }
     files.insert(files.end(), foreign.inputs.begin(), foreign.inputs.end());
     Hash128 hash;
-    const auto add = [&hash](std::string_view part) {
-        hash.update(fmt::format("{}:{}", part.size(), part));
-    };
+    const auto add = [&hash](std::string_view part) { hash.update(fmt::format("{}:{}", part.size(), part)); };
     add(PLUMB_VERSION);
     add(words_text(words));
     add(std::to_string(foreign.replicas));
@@ -166,8 +164,8 @@ ForeignImages run_command(const ForeignJob& job)
             throw ProgramError(foreign.at, problem, made.run);
         const fs::path written = work.written_image();
         if (written.empty())
-            throw ProgramError(foreign.at, "the command ended without an error, but wrote no image to {image}",
-                               made.run);
+            throw ProgramError(foreign.at,
+                               "the command ended without an error, but wrote no image to {image}", made.run);
         const std::string file = stem_of_replica(job, replica) + written.extension().string();
         std::error_code problem;
         fs::rename(written, file, problem);

@@ -67,7 +67,8 @@ std::vector<SuiteJob> reference_makers(const std::vector<SuiteJob>& jobs, const 
 bool is_named(const SuiteJob& maker, const std::vector<SuiteJob>& jobs, const std::string& name)
 {
     const fs::path& reference = maker.entry.reference;
-    for (const std::string& one : {reference.string(), reference.filename().string(), reference.stem().string()})
+    for (const std::string& one :
+         {reference.string(), reference.filename().string(), reference.stem().string()})
         if (matches_pattern(one, name)) return true;
     return std::any_of(jobs.begin(), jobs.end(), [&](const SuiteJob& job) {
         return job.entry.reference == reference &&
@@ -82,7 +83,8 @@ std::vector<SuiteJob> references_to_update(const std::vector<SuiteJob>& jobs, st
     const std::string first = makers.front().entry.reference.string();
     std::error_code ignored;
     std::erase_if(makers, [&](const SuiteJob& maker) {
-        return which == "missing" ? fs::exists(maker.entry.reference, ignored) : !is_named(maker, jobs, which);
+        return which == "missing" ? fs::exists(maker.entry.reference, ignored)
+                                  : !is_named(maker, jobs, which);
     });
     if (makers.empty() && which != "missing")
         throw Error(fmt::format("no reference is called '{}'; the first one is '{}'", which, first));

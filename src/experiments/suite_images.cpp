@@ -188,7 +188,8 @@ void SuiteRunner::take_image(const SuiteJob& job, SuiteResult& result)
     compare_with_reference(job, result);
 }
 
-void SuiteRunner::show_foreign(const SuiteJob& job, const std::vector<std::string>& files, SuiteResult& result)
+void SuiteRunner::show_foreign(const SuiteJob& job, const std::vector<std::string>& files,
+                               SuiteResult& result)
 {
     try {
         image_ = read_images(files);
@@ -208,13 +209,13 @@ void SuiteRunner::compare_with_reference(const SuiteJob& job, SuiteResult& resul
     if (entry.reference.empty()) return;
     std::error_code ignored;
     if (!fs::exists(entry.reference, ignored))
-        throw SceneError({Diagnostic{
-            Severity::error, entry.reference_at,
-            entry.scene.empty()
-                ? fmt::format("reference '{}' does not exist, and no scene says how it is made",
-                              entry.reference.string())
-                : fmt::format("reference '{}' does not exist; '{}' makes it", entry.reference.string(),
-                              suite_command(" --update"))}});
+        throw SceneError(
+            {Diagnostic{Severity::error, entry.reference_at,
+                        entry.scene.empty()
+                            ? fmt::format("reference '{}' does not exist, and no scene says how it is made",
+                                          entry.reference.string())
+                            : fmt::format("reference '{}' does not exist; '{}' makes it",
+                                          entry.reference.string(), suite_command(" --update"))}});
     const Image& reference = reference_.emplace(read_image(entry.reference, true));
     result.how = job.compare;
     result.compare_command = "renderer compare " + compared_files(result) + options_text(result.how);

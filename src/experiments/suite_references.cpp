@@ -72,8 +72,9 @@ void SuiteRunner::make_reference(const SuiteJob& job, SuiteResult& result)
     std::error_code problem;
     if (fs::exists(reference, problem)) {
         const std::string hash = sha256_of_file(reference).substr(0, 8);
-        const fs::path kept = options_.directory / "replaced" /
-                              fmt::format("{}_{}{}", reference.stem().string(), hash, reference.extension().string());
+        const fs::path kept =
+            options_.directory / "replaced" /
+            fmt::format("{}_{}{}", reference.stem().string(), hash, reference.extension().string());
         make_directory(kept.parent_path());
         fs::copy_file(reference, kept, fs::copy_options::overwrite_existing, problem);
         if (problem)
@@ -92,7 +93,8 @@ void SuiteRunner::make_reference(const SuiteJob& job, SuiteResult& result)
     result.state = JobState::made;
     result.image = reference.string();
     if (!before) return;
-    result.accept_command = fmt::format("cp {} {}", shell_quote(result.replaced), shell_quote(reference.string()));
+    result.accept_command =
+        fmt::format("cp {} {}", shell_quote(result.replaced), shell_quote(reference.string()));
     result.reference = result.replaced;
     compare_references(job, std::move(made.image), std::move(*before), result);
 }
@@ -110,7 +112,8 @@ void SuiteRunner::compare_references(const SuiteJob& job, Image now, Image befor
     try {
         result.comparison = compare(*image_, *reference_, result.how);
     } catch (const Error& error) {
-        result.warnings.push_back(fmt::format("the old and the new reference cannot be compared: {}", error.what()));
+        result.warnings.push_back(
+            fmt::format("the old and the new reference cannot be compared: {}", error.what()));
         return;
     }
     const std::string stem = stem_of("references/" + fs::path(job.entry.reference).stem().string());

@@ -22,8 +22,8 @@ std::size_t SuiteRun::count(Verdict verdict) const
                       [&](const SuiteResult& result) { return result.verdict == verdict; }));
 }
 
-SuiteRun run_suite(const std::filesystem::path& suite, const std::vector<SuiteJob>& jobs, const SuiteOptions& options,
-                   const SessionCallbacks& callbacks, const SuiteTold& told)
+SuiteRun run_suite(const std::filesystem::path& suite, const std::vector<SuiteJob>& jobs,
+                   const SuiteOptions& options, const SessionCallbacks& callbacks, const SuiteTold& told)
 {
     const auto start = std::chrono::steady_clock::now();
     const std::vector<SuiteJob> chosen = chosen_jobs(suite, jobs, options);

@@ -28,8 +28,8 @@ std::string output_text(const std::string& output)
 
 } // namespace
 
-SuiteRunner::SuiteRunner(const fs::path& suite, const std::vector<SuiteJob>& jobs, const SuiteOptions& options,
-                         const SessionCallbacks& callbacks)
+SuiteRunner::SuiteRunner(const fs::path& suite, const std::vector<SuiteJob>& jobs,
+                         const SuiteOptions& options, const SessionCallbacks& callbacks)
     : suite_(suite),
       options_(options),
       callbacks_(callbacks),
@@ -105,7 +105,8 @@ SuiteResult SuiteRunner::result_of(const SuiteJob& job) const
     else if (!entry.foreign)
         result.command = command_text(entry.scene, job.image);
     else if (!entry.foreign->command.empty())
-        result.command = words_text(command_of(job, 0, fs::absolute(stem_of(entry.title()) + ".exr"), options_.threads));
+        result.command =
+            words_text(command_of(job, 0, fs::absolute(stem_of(entry.title()) + ".exr"), options_.threads));
     return result;
 }
 
@@ -131,8 +132,7 @@ SuiteRunner::Made SuiteRunner::render_whole(const RenderTask& task, const std::v
     if (result.interrupted) throw Error("interrupted");
     Evidence evidence = session.evidence();
     Image image = session.image(evidence);
-    if (!files.empty())
-        write_images(files, image, task.settings.output.exposure, packing_of(evidence), {});
+    if (!files.empty()) write_images(files, image, task.settings.output.exposure, packing_of(evidence), {});
     return {std::move(image), std::move(evidence)};
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "plumb/reports/agreement_report.h"
 
-#include "reports/json_document.h"
 #include "base/visible_text.h"
 #include "plumb/reports/comparison_report.h"
+#include "reports/json_document.h"
 
 #include <algorithm>
 #include <fmt/format.h>

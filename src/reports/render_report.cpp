@@ -2,11 +2,11 @@
 #include "plumb/reports/render_report.h"
 #include "plumb/scene/scene.h"
 
-#include "reports/json_document.h"
 #include "base/memory.h"
 #include "base/shell_words.h"
 #include "base/text.h"
 #include "render/sample_text.h"
+#include "reports/json_document.h"
 #include "settings/options_text.h"
 
 #include <ctime>

@@ -48,7 +48,8 @@ std::vector<std::string> read_history(const std::filesystem::path& file)
     return history;
 }
 
-std::vector<std::string> with_run(std::vector<std::string> history, const SuiteRun& run, std::uint64_t seconds)
+std::vector<std::string> with_run(std::vector<std::string> history, const SuiteRun& run,
+                                  std::uint64_t seconds)
 {
     JsonWriter json;
     json.begin_object();

@@ -145,7 +145,8 @@ const ShownImages::Shown* ShownImages::find(const std::string& title) const
     return found == shown_.end() ? nullptr : &found->second;
 }
 
-std::string suite_html(const SuiteRun& run, const ShownImages& images, const std::vector<std::string>& history)
+std::string suite_html(const SuiteRun& run, const ShownImages& images,
+                       const std::vector<std::string>& history)
 {
     return PageWriter(run, images, history).write();
 }

@@ -137,14 +137,14 @@ std::string result_line(const SuiteResult& result, std::size_t title_width)
         line += "    " + visible_text(stale) + "\n";
     if (result.state == JobState::made && !result.replaced.empty())
         line += fmt::format("    the old one is '{}'{}\n", visible_text(result.replaced),
-                            result.comparison ? fmt::format("; the new one {} it: p {}",
-                                                            result.comparison->verdict == Verdict::passes
-                                                                ? "agrees with"
-                                                                : result.comparison->verdict == Verdict::differs
-                                                                      ? "differs from"
-                                                                      : "cannot be told from",
-                                                            p_text(result.comparison->significance.p))
-                                              : "");
+                            result.comparison
+                                ? fmt::format("; the new one {} it: p {}",
+                                              result.comparison->verdict == Verdict::passes ? "agrees with"
+                                              : result.comparison->verdict == Verdict::differs
+                                                  ? "differs from"
+                                                  : "cannot be told from",
+                                              p_text(result.comparison->significance.p))
+                                : "");
     if (!result.accept_command.empty())
         line += fmt::format("    to {}: {}\n", result.state == JobState::made ? "restore it" : "accept it",
                             visible_text(result.accept_command));

@@ -2,9 +2,9 @@
 #include "plumb/reports/test_report.h"
 #include "plumb/reports/comparison_report.h"
 
-#include "reports/json_document.h"
 #include "base/text.h"
 #include "base/visible_text.h"
+#include "reports/json_document.h"
 
 #include <algorithm>
 #include <cmath>

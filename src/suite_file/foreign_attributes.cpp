@@ -14,8 +14,8 @@ constexpr std::uint64_t most_replicas = 1000;
 constexpr std::size_t most_inputs = 10'000;
 
 // The files that a list of names and patterns means.
-std::vector<std::filesystem::path> find_inputs(const std::filesystem::path& directory, const SuiteSetting& list,
-                                               Diagnostics& diagnostics)
+std::vector<std::filesystem::path> find_inputs(const std::filesystem::path& directory,
+                                               const SuiteSetting& list, Diagnostics& diagnostics)
 {
     std::vector<std::filesystem::path> inputs;
     for (const std::string_view word : words_of(list.value)) {

@@ -92,13 +92,15 @@ private:
         const Attribute* name = element.attribute("name");
         const bool is_foreign = own.foreign.is_given();
         if (!scene && !is_foreign) {
-            diagnostics_.error(element.place(), R"(<render> needs an attribute 'scene', or 'image' or 'command' for )"
-                                                R"(images of other programs: <render scene="..." .../>)");
+            diagnostics_.error(element.place(),
+                               R"(<render> needs an attribute 'scene', or 'image' or 'command' for )"
+                               R"(images of other programs: <render scene="..." .../>)");
             return;
         }
         if (!scene && !name) {
-            diagnostics_.error(element.place(),
-                               R"(<render> needs an attribute 'name' where it has no scene: <render name="..." .../>)");
+            diagnostics_.error(
+                element.place(),
+                R"(<render> needs an attribute 'name' where it has no scene: <render name="..." .../>)");
             return;
         }
         if ((scene && scene->broken) || (name && !check_name(element, *name))) return;

@@ -29,9 +29,11 @@ struct ForeignDirectory : TempDirectory {
         const auto file = write(name, "#!/bin/sh\n" + text + "\n");
         std::filesystem::permissions(file, std::filesystem::perms::owner_all);
     }
-    void render(const std::string& name, const std::string& seed, const std::string& scene = "scene.xml") const
+    void render(const std::string& name, const std::string& seed,
+                const std::string& scene = "scene.xml") const
     {
-        REQUIRE(run_renderer({scene, "--spp", "64", "--seed", seed, "--no-variance", "--quiet", "-o", name}, path())
+        REQUIRE(run_renderer({scene, "--spp", "64", "--seed", seed, "--no-variance", "--quiet", "-o", name},
+                             path())
                     .exit_code == 0);
     }
     void suite(const std::string& entries) const
@@ -105,7 +107,8 @@ TEST_CASE("batch runs commands only where it is allowed", "[cli][batch][foreign]
     const RunResult refused = directory.batch({});
     CHECK(refused.exit_code == 1);
     CHECK_THAT(refused.out,
-               ContainsSubstring("suite.xml:2:48: error: this entry runs a command, which needs --allow-commands\n"));
+               ContainsSubstring(
+                   "suite.xml:2:48: error: this entry runs a command, which needs --allow-commands\n"));
     CHECK_THAT(refused.out, ContainsSubstring("\n    ./touch_it " + (directory / "in.exr").string() + " "));
     CHECK_FALSE(std::filesystem::exists(directory / "ran"));
     CHECK(directory.batch().exit_code == 0);
@@ -123,10 +126,11 @@ TEST_CASE("another program's images and replicas get a verdict", "[cli][batch][f
     CHECK(made.exit_code == 0);
     CHECK(made.out.starts_with("mine_16  passes "));
     const std::string report = directory.report();
-    for (const char* part : {"\"batch/suite/mine_16_r4.exr\"", "\"exit_code\": 0,", "\"peak_memory\": ",
-                             "batch/suite/mine_16_r4.exr --against ref.exr"})
+    for (const char* part : {"\"batch/suite/mine_16_r4.exr\"", "\"exit_code\": 0,",
+                             "\"peak_memory\": ", "batch/suite/mine_16_r4.exr --against ref.exr"})
         CHECK_THAT(report, ContainsSubstring(part));
-    CHECK(read_bytes(directory / "batch/suite/mine_16_r1.exr") != read_bytes(directory / "batch/suite/mine_16_r2.exr"));
+    CHECK(read_bytes(directory / "batch/suite/mine_16_r1.exr") !=
+          read_bytes(directory / "batch/suite/mine_16_r2.exr"));
     CHECK_FALSE(std::filesystem::exists(directory / "batch/suite/mine_16_work"));
 
     // The same words with another scene: a bug.
@@ -180,26 +184,31 @@ TEST_CASE("what a command does wrong is one clear error with the end of its outp
                ContainsSubstring("suite.xml:2:48: error: the command failed with exit code 7\n"));
     CHECK_THAT(complaint("echo one; echo two >&2; exit 7"), ContainsSubstring("\n    one\n    two\n"));
     CHECK_THAT(complaint("kill -9 $$"), ContainsSubstring("error: the command was killed by signal 9 ("));
-    CHECK_THAT(complaint("exit 0"),
-               ContainsSubstring("error: the command ended without an error, but wrote no image to {image}\n"));
+    CHECK_THAT(
+        complaint("exit 0"),
+        ContainsSubstring("error: the command ended without an error, but wrote no image to {image}\n"));
     CHECK_THAT(complaint("exit 0"), ContainsSubstring("\n    (it printed nothing)\n"));
     CHECK_THAT(complaint("echo nonsense > \"$1\""), ContainsSubstring("suite.xml:2:48: error: cannot read "));
     CHECK_THAT(complaint("ln -s /dev/zero \"$1\""), ContainsSubstring("wrote no image to {image}\n"));
     CHECK_THAT(complaint("mkfifo \"$1\""), ContainsSubstring("wrote no image to {image}\n"));
     // What steers a terminal, and more than anybody wants to read.
-    const std::string loud = complaint(R"(printf '\033[2J'; yes something | head -c 3000000; echo last; exit 1)");
+    const std::string loud =
+        complaint(R"(printf '\033[2J'; yes something | head -c 3000000; echo last; exit 1)");
     CHECK_THAT(loud, ContainsSubstring("\n    something\n    last\n"));
     CHECK(loud.size() < 12000);
     CHECK(loud.find('\033') == std::string::npos);
     // Time.
-    CHECK_THAT(complaint("echo working; sleep 1000", "timeout=\"1\""),
-               ContainsSubstring("error: the command was stopped after 1.00 s; allow more with timeout=\"...\"\n"));
+    CHECK_THAT(
+        complaint("echo working; sleep 1000", "timeout=\"1\""),
+        ContainsSubstring("error: the command was stopped after 1.00 s; allow more with timeout=\"...\"\n"));
     directory.suite(entry("./none {image}"));
-    CHECK_THAT(directory.batch().out,
-               ContainsSubstring("error: cannot run './none': there is no program of this name beside the suite\n"));
+    CHECK_THAT(
+        directory.batch().out,
+        ContainsSubstring("error: cannot run './none': there is no program of this name beside the suite\n"));
     directory.suite(entry("plumb-none {image}"));
-    CHECK_THAT(directory.batch().out,
-               ContainsSubstring("error: cannot run 'plumb-none': there is no program of this name in PATH\n"));
+    CHECK_THAT(
+        directory.batch().out,
+        ContainsSubstring("error: cannot run 'plumb-none': there is no program of this name in PATH\n"));
 }
 
 TEST_CASE("a time-out and a signal end all processes of a command", "[cli][batch][foreign]")
@@ -211,7 +220,8 @@ TEST_CASE("a time-out and a signal end all processes of a command", "[cli][batch
     const std::string number = (directory / "number").string();
     const auto child = [&] { return static_cast<pid_t>(std::stol(read_bytes(number))); };
     const auto has_ended = [&](pid_t process) {
-        for (int i = 0; i < 200 && lives(process); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        for (int i = 0; i < 200 && lives(process); ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(50));
         return !lives(process);
     };
     directory.suite(entry("./slow {image} " + number, "timeout=\"1\""));
@@ -243,12 +253,14 @@ TEST_CASE("a command has no shell, and a directory of its own", "[cli][batch][fo
 {
     const ForeignDirectory directory;
     directory.render("in.exr", "1");
-    directory.script("show", "for word in \"$@\"; do echo \"<$word>\"; done; pwd; echo \"$TMPDIR\"; cat; exit 1");
-    directory.suite(entry(R"(./show 'a b' "c d" \$HOME $(id) * > x; {{{seed}}} {name} {replica} {width}x{height} {image})",
-                          "size=\"4x3\" seed=\"5\""));
+    directory.script("show",
+                     "for word in \"$@\"; do echo \"<$word>\"; done; pwd; echo \"$TMPDIR\"; cat; exit 1");
+    directory.suite(entry(
+        R"(./show 'a b' "c d" \$HOME $(id) * > x; {{{seed}}} {name} {replica} {width}x{height} {image})",
+        "size=\"4x3\" seed=\"5\""));
     const std::string out = directory.batch().out;
-    for (const char* word : {"<a b>", "<c d>", "<$HOME>", "<$(id)>", "<*>", "<>>", "<x;>", "<{5}>", "<mine>", "<1>",
-                             "<4x3>"})
+    for (const char* word :
+         {"<a b>", "<c d>", "<$HOME>", "<$(id)>", "<*>", "<>>", "<x;>", "<{5}>", "<mine>", "<1>", "<4x3>"})
         CHECK_THAT(out, ContainsSubstring("\n    " + std::string(word) + "\n"));
     const std::string work = (directory / "batch/suite/mine_work").string();
     CHECK_THAT(out, ContainsSubstring("\n    " + work + "\n    " + work + "\n"));
@@ -294,12 +306,15 @@ TEST_CASE("what is wrong with a command is said before anything is run", "[cli][
           "suite.xml:2:48: error: a single '{' stands in it; write {{ for the character");
     CHECK(complaint(entry("./copy {image}", "replicas=\"0\"")) ==
           "suite.xml:2:74: error: replicas must be an integer from 1 to 1000, not '0'");
-    CHECK(complaint(entry("./copy {image}", "image=\"a.exr\"")) ==
-          "suite.xml:2:64: error: an image is either there or made by a command; remove 'image' or 'command'");
-    CHECK(complaint("<render/>") == "suite.xml:2:1: error: <render> needs an attribute 'scene', or 'image' or 'command' "
-                                    "for images of other programs: <render scene=\"...\" .../>");
+    CHECK(
+        complaint(entry("./copy {image}", "image=\"a.exr\"")) ==
+        "suite.xml:2:64: error: an image is either there or made by a command; remove 'image' or 'command'");
+    CHECK(complaint("<render/>") ==
+          "suite.xml:2:1: error: <render> needs an attribute 'scene', or 'image' or 'command' "
+          "for images of other programs: <render scene=\"...\" .../>");
     CHECK(complaint("<render image=\"a.exr\"/>") ==
-          "suite.xml:2:1: error: <render> needs an attribute 'name' where it has no scene: <render name=\"...\" .../>");
+          "suite.xml:2:1: error: <render> needs an attribute 'name' where it has no scene: <render "
+          "name=\"...\" .../>");
 }
 
 TEST_CASE("--update makes what is missing, and replaces only what it is told to", "[cli][batch][foreign]")
@@ -324,8 +339,9 @@ TEST_CASE("--update makes what is missing, and replaces only what it is told to"
     CHECK(bytes("ref/dark.exr") == dark);
     const RunResult stale = directory.batch({});
     CHECK(stale.exit_code == 3);
-    CHECK_THAT(stale.out, ContainsSubstring("\n    the reference is stale: 'scene.xml' has changed\n"
-                                            "    to accept it: renderer batch suite.xml --update=ref/scene.exr\n"));
+    CHECK_THAT(stale.out,
+               ContainsSubstring("\n    the reference is stale: 'scene.xml' has changed\n"
+                                 "    to accept it: renderer batch suite.xml --update=ref/scene.exr\n"));
     CHECK_THAT(stale.out, ContainsSubstring("; 1 stale"));
     CHECK_THAT(directory.report(), ContainsSubstring("\"'scene.xml' has changed\""));
     const RunResult checked = directory.batch({"--check-references"});

@@ -57,17 +57,17 @@ struct ProgramRun {
 struct SuiteResult {
     std::string title; // with the sample count, where it is known
     std::string scene;
-    std::string command;         // that renders the image by hand
-    std::string compare_command; // that compares it; empty: there is nothing to compare
-    std::string accept_command;  // that makes the image the reference; empty: nothing does
-    std::string image;           // empty: there is none
+    std::string command;               // that renders the image by hand
+    std::string compare_command;       // that compares it; empty: there is nothing to compare
+    std::string accept_command;        // that makes the image the reference; empty: nothing does
+    std::string image;                 // empty: there is none
     std::vector<std::string> replicas; // the images that it is the mean of; empty: it is one
     std::string screen_image;
-    std::string reference;   // empty: none
-    std::string difference;  // the image of it; empty: none
-    std::string significant; // the image of the squares that the test rejected; empty: none
-    std::string replaced;    // of a reference that is made again: where the old one is kept
-    std::vector<std::string> stale; // why the reference is not what Plumb would make today
+    std::string reference;             // empty: none
+    std::string difference;            // the image of it; empty: none
+    std::string significant;           // the image of the squares that the test rejected; empty: none
+    std::string replaced;              // of a reference that is made again: where the old one is kept
+    std::vector<std::string> stale;    // why the reference is not what Plumb would make today
     std::optional<ProgramRun> program; // that made the image, if it is not Plumb and has just run
     JobState state = JobState::not_run;
     std::optional<Verdict> verdict; // where it was compared
@@ -105,11 +105,12 @@ struct SuiteOptions {
     bool fail_fast = false;               // ends at the first image that does not pass
     // Makes references instead: those that are missing, those whose files or images have this name or pattern, or all.
     std::optional<std::string> update = {}; // "missing", "all" or a name
-    bool check_references = false; // renders them as their headers say, and compares
-    bool force = false;            // also what is up to date
-    bool allow_commands = false;   // other programs may be run
+    bool check_references = false;          // renders them as their headers say, and compares
+    bool force = false;                     // also what is up to date
+    bool allow_commands = false;            // other programs may be run
     int threads = 0;
-    std::map<std::string, std::string> definitions = {}; // that the suite was read with, for the commands of the report
+    std::map<std::string, std::string> definitions =
+        {}; // that the suite was read with, for the commands of the report
 
     bool is_about_references() const { return update || check_references; }
 };

@@ -19,7 +19,7 @@ std::string_view result_word(const SuiteResult& result);
 // One line: why the verdict is not "passes".
 std::string reason_text(const SuiteResult& result);
 std::string stale_text(const SuiteResult& result); // one line; empty: the reference is not stale
-std::string summary_text(const SuiteRun& run); // "3 pass, 1 differs; 2 were up to date"
+std::string summary_text(const SuiteRun& run);     // "3 pass, 1 differs; 2 were up to date"
 
 // The order of reports: errors, differences, what is undecided, and the rest.
 std::vector<const SuiteResult*> failures_first(const SuiteRun& run);

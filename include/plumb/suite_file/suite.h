@@ -33,11 +33,11 @@ struct SuiteSetting {
 
 // An image that another program makes, or has made.
 struct ForeignImage {
-    std::string command;     // with placeholders (command_line.h); empty: the image is there
-    std::string image;       // without a command: its file, with placeholders, seen from the suite's directory
-    SourceLocation at;       // of the command or the image
-    int replicas = 1;        // images that differ in their seeds
-    double timeout = 600.0;  // of each run, in seconds
+    std::string command;    // with placeholders (command_line.h); empty: the image is there
+    std::string image;      // without a command: its file, with placeholders, seen from the suite's directory
+    SourceLocation at;      // of the command or the image
+    int replicas = 1;       // images that differ in their seeds
+    double timeout = 600.0; // of each run, in seconds
     std::vector<std::filesystem::path> inputs; // that the image depends on
     SourceLocation inputs_at;
 };
@@ -52,7 +52,8 @@ struct SuiteEntry {
     std::map<std::string, std::string> definitions;
     std::filesystem::path reference; // empty: none
     SourceLocation reference_at;
-    std::map<std::string, SuiteSetting> reference_settings; // what makes the reference instead: spp, seed, target-error
+    std::map<std::string, SuiteSetting>
+        reference_settings;              // what makes the reference instead: spp, seed, target-error
     std::optional<ForeignImage> foreign; // nothing: Plumb renders the image
     SourceLocation at;
 

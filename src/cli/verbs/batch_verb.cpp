@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cli/console.h"
 #include "cli/interrupt.h"
+#include "cli/outputs.h"
 #include "cli/progress.h"
 #include "cli/verb_file.h"
 
@@ -17,6 +18,7 @@ namespace {
 struct Options : VerbOptions {
     RenderSettings settings; // of them, definitions: of $name in the suite
     std::string directory;   // for images and reports; empty: batch/<suite>
+    std::string json;
     std::optional<std::string> update; // SuiteOptions::update
     bool check_references = false;
     bool allow_commands = false;
@@ -47,13 +49,15 @@ SuiteRun run_and_tell(const Options& options, const std::vector<SuiteJob>& jobs,
 {
     std::size_t width = 0;
     for (const SuiteJob& job : chosen_jobs(options.subject(), jobs, how))
-        width = std::max(width, (how.is_about_references() ? job.entry.reference.string() : job.entry.title()).size());
+        width = std::max(
+            width, (how.is_about_references() ? job.entry.reference.string() : job.entry.title()).size());
     Display display(options.quiet);
     const InterruptGuard guard(Interruption::by_hand);
     const auto tell = [&](const SuiteResult& result, const SuiteImages& images) {
         display.end();
         shown.add(result, images);
-        if (!options.quiet || result.state == JobState::failed) print_output(result_line(result, width));
+        const bool is_shown = options.json != "-" && (!options.quiet || result.state == JobState::failed);
+        if (is_shown) print_output(result_line(result, width));
         finish_output(); // so far
     };
     SuiteRun run = run_suite(options.subject(), jobs, how,
@@ -94,7 +98,10 @@ int run(const Options& options)
     const SuiteOptions how = how_to_run(options);
     const std::vector<SuiteJob> chosen = chosen_jobs(suite, jobs, how);
     if (chosen.empty()) {
-        if (!options.quiet)
+        SuiteRun nothing;
+        nothing.suite = suite;
+        write_json(options.json, suite_json(nothing));
+        if (!options.quiet && options.json != "-")
             print_output("no reference is missing; --update=all or --update=NAME makes them again\n");
         return exit_code::done;
     }
@@ -102,10 +109,12 @@ int run(const Options& options)
     for (const SuiteJob& job : chosen) shown += job.entry.reference.empty() ? 1 : 2;
     const std::filesystem::path reports = report_directory(how);
     check_suite_reports(reports);
+    check_outputs({}, options.json);
     ShownImages images(shown);
     const SuiteRun done = run_and_tell(options, jobs, how, images);
     write_suite_reports(done, images, reports);
-    if (!options.quiet)
+    write_json(options.json, suite_json(done));
+    if (!options.quiet && options.json != "-")
         print_output(fmt::format("{}; reports: {}\n", summary_text(done),
                                  visible_text((reports / "report.html").string())));
     return exit_code_of(done);
@@ -113,6 +122,7 @@ int run(const Options& options)
 
 void settle(Options& options)
 {
+    check_output_names({}, {{"--json", options.json}});
     if (options.update && options.check_references)
         throw UsageError("--update and --check-references cannot be used together");
 }
@@ -198,7 +208,7 @@ OptionTable<Options> table()
         {text_option<Options>(Topic::output, "--out", "DIR",
                               "directory for images and reports\n(default batch/SUITE)", &Options::directory,
                               "directory"),
-         update,
+         json_option<Options>(), update,
          switch_option<Options>(Topic::output, "--check-references",
                                 "render the references as their headers say, and\n"
                                 "compare: is any of them stale?",

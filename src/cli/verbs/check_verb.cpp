@@ -83,7 +83,8 @@ Exit code: 0 no mistakes found, 1 errors, 2 wrong usage, 3 likely mistakes.
 
 OptionTable<Options> table()
 {
-    return join<Options>({json_option<Options>(), setting_options<Options>(Topic::image, &Options::settings, {"size", "integrator"}),
+    return join<Options>({json_option<Options>(),
+                          setting_options<Options>(Topic::image, &Options::settings, {"size", "integrator"}),
                           scene_options<Options>(),
                           setting_options<Options>(Topic::running, &Options::settings, {"isa"}),
                           quiet_option<Options>(), verbose_option<Options>(), help_option<Options>()});

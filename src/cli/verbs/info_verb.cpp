@@ -109,14 +109,16 @@ int run(const Options& options)
 struct InfoVerb {
     static Verb make()
     {
-        return make_verb<Options>({"info", "IMAGE", "print the header of an image", "image", 1, 1},
-                                  join<Options>({json_option<Options>(),
-                                                 text_option<Options>(Topic::output, "--pixels", "FILE",
-                                                                      "write all channels as 32-bit floats to this\n"
-                                                                      ".npy file, for numpy: [row, column, channel],\n"
-                                                                      "linear",
-                                                                      &Options::pixels),
-                                                 help_option<Options>()}), run, settle);
+        return make_verb<Options>(
+            {"info", "IMAGE", "print the header of an image", "image", 1, 1},
+            join<Options>({json_option<Options>(),
+                           text_option<Options>(Topic::output, "--pixels", "FILE",
+                                                "write all channels as 32-bit floats to this\n"
+                                                ".npy file, for numpy: [row, column, channel],\n"
+                                                "linear",
+                                                &Options::pixels),
+                           help_option<Options>()}),
+            run, settle);
     }
 };
 template const Verb& verb<InfoVerb>();

@@ -60,7 +60,8 @@ OptionTable<Options> table()
          [](Options& o, std::string_view n, const std::string& t) {
              o.sample = parse_integer(n, t, 0, UINT64_MAX);
          }}};
-    return join<Options>({json_option<Options>(), setting_options<Options>(Topic::image, &Options::settings,
+    return join<Options>({json_option<Options>(),
+                          setting_options<Options>(Topic::image, &Options::settings,
                                                    {"spp", "seed", "size", "integrator", "sampler"}),
                           scene_options<Options>(),
                           setting_options<Options>(Topic::running, &Options::settings, {"isa"}),

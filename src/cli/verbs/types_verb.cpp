@@ -141,7 +141,8 @@ struct TypesVerb {
     static Verb make()
     {
         return make_verb<Options>({"types", "[NAME]", "list all types, or print a manual", "name", 0, 1},
-                                  join<Options>({json_option<Options>(), help_option<Options>()}), run, settle);
+                                  join<Options>({json_option<Options>(), help_option<Options>()}), run,
+                                  settle);
     }
 };
 template const Verb& verb<TypesVerb>();
