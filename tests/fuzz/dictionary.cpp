@@ -28,8 +28,9 @@ void add_scene_words(Words& words)
             words.insert(fmt::format("name=\"{}\"", name));
     }
     for (const char* tag :
-         {"integer", "float", "boolean", "string", "point", "vector", "color", "transform", "default",
-          "include", "scene", "test", "suite", "render", "group", "define", "reference", "mesh", "ref"}) {
+         {"integer",   "float",   "boolean", "string",   "point",  "vector", "color", "transform",
+          "default",   "include", "scene",   "test",     "suite",  "render", "group", "define",
+          "reference", "command", "image",   "replicas", "inputs", "mesh",   "ref"}) {
         words.insert(fmt::format("<{} ", tag));
         words.insert(fmt::format("</{}>", tag));
     }

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 using namespace plumb;
+using Catch::Matchers::WithinAbs;
 using namespace plumb::test;
 
 namespace {

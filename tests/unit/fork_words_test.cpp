@@ -2,6 +2,7 @@
 
 // What Nori's forks call things: every row of the table, and what takes more than a row.
 
+#include "build_paths.h"
 #include "plumb/model/emitter.h"
 #include "plumb/model/shape.h"
 #include "plumb/scene/scene.h"

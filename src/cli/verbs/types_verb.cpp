@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "cli/console.h"
+#include "cli/outputs.h"
 #include "cli/usage_error.h"
 #include "cli/verb_file.h"
 #include "plumb/scene_file/scene_file.h"
 #include "reports/exit_codes.h"
+#include "reports/facts_json.h"
 #include "scene_file/catalog.h"
 #include "scene_file/element_manuals.h"
 #include "scene_file/foreign_names.h"
@@ -103,6 +105,7 @@ bool print_element_manual(std::string_view name)
 }
 
 struct Options : VerbOptions {
+    std::string json;
     std::string dialect;
 };
 
@@ -125,11 +128,31 @@ void print_vocabulary(const std::string& dialect, const std::string& name)
     print_output(*manual);
 }
 
+void settle(Options& options)
+{
+    if (!options.json.empty() && !options.dialect.empty())
+        throw UsageError("--json lists our own words and cannot be used with --dialect");
+    check_output_names({}, {{"--json", options.json}});
+}
+
+bool is_known(std::string_view name)
+{
+    const auto& types = known_types();
+    return find_element_manual(name) ||
+           std::any_of(types.begin(), types.end(), [&](const TypeInfo& type) { return type.name == name; });
+}
+
 int run(const Options& options)
 {
     const std::string name = options.subjects.empty() ? "" : options.subject();
     if (!options.dialect.empty()) {
         print_vocabulary(options.dialect, name);
+        return exit_code::done;
+    }
+    if (!options.json.empty()) {
+        if (!name.empty() && !is_known(name)) reject_name(name);
+        check_outputs({}, options.json);
+        write_json(options.json, types_json(name));
         return exit_code::done;
     }
     if (name.empty()) {
@@ -154,8 +177,8 @@ struct TypesVerb {
                                                 "in the words of mitsuba3, mitsuba06 or a course, with what\n"
                                                 "they are called here",
                                                 &Options::dialect, "name"),
-                           help_option<Options>()}),
-            run);
+                           json_option<Options>(), help_option<Options>()}),
+            run, settle);
     }
 };
 template const Verb& verb<TypesVerb>();
