@@ -13,7 +13,6 @@ namespace plumb {
 ///     height         integer     pixels down, from 1 to 65535   (default 720)
 ///     viewWidth      float       width of what is seen, greater than 0; its height follows from the pixels   (default 2)
 ///     toWorld        transform   camera space to world space   (default identity)
-///     mirrored       boolean     the image is flopped, left to right; the dialect eth sets it   (default false)
 ///     nearClip       float       nothing nearer to the camera's plane is seen, if given; in the world, whatever toWorld scales
 ///     farClip        float       nothing farther from it is seen, if given
 ///     mirrored       boolean     the image is flopped, left to right; the dialect eth sets it   (default false)

@@ -5,6 +5,7 @@
 #include "scene_file/property_values.h"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -21,6 +22,7 @@ public:
     {
         std::erase_if(root_.attributes, [](const Attribute& a) { return a.name == "version"; });
         dissolve_merged(root_);
+        leave_out_empty_groups();
         std::vector<Element> kept;
         kept.reserve(root_.children.size() + 3);
         for (Element& child : root_.children) {
@@ -67,6 +69,36 @@ private:
                 if (inner.tag == "shape") kept.push_back(std::move(inner));
         }
         parent.children = std::move(kept);
+    }
+
+    static bool holds(const Element& element, std::string_view tag)
+    {
+        return std::any_of(element.children.begin(), element.children.end(),
+                           [&](const Element& child) { return child.tag == tag; });
+    }
+
+    // --lenient may have left out all that was in a group; then its instances show nothing.
+    void leave_out_empty_groups()
+    {
+        std::set<std::string> empty;
+        std::erase_if(root_.children, [&](const Element& child) {
+            if (child.tag != "shape" || child.value("type") != "group" || holds(child, "shape") ||
+                child.value("id").empty())
+                return false;
+            diagnostics_.warning(child.place(),
+                                 fmt::format("the group '{}' has no shapes; it is left out with "
+                                             "its instances",
+                                             child.value("id")));
+            empty.insert(child.value("id"));
+            return true;
+        });
+        if (empty.empty()) return;
+        std::erase_if(root_.children, [&](const Element& child) {
+            return child.tag == "shape" && child.value("type") == "instance" &&
+                   std::any_of(child.children.begin(), child.children.end(), [&](const Element& inner) {
+                       return inner.tag == "ref" && empty.contains(inner.value("id"));
+                   });
+        });
     }
 
     // The film's parameters are the camera's, and the sampler stands in the scene.

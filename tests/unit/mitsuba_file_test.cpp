@@ -227,6 +227,18 @@ TEST_CASE("what Mitsuba's files need and Plumb has not is refused in their words
         ContainsSubstring("warning: shape 'sdfgrid' is not supported; export it as a mesh; it is left out"));
 }
 
+TEST_CASE("a group of which nothing is left is left out with its instances", "[unit][mitsuba]")
+{
+    const Read lenient =
+        read("<shape type='shapegroup' id='g'><shape type='sdfgrid'/></shape><shape type='instance'>"
+             "<ref id='g'/></shape><shape type='disk'/>" +
+                 rest,
+             "3.0.0", {}, true);
+    CHECK(lenient.text == "<shape type='disk'/>");
+    CHECK_THAT(lenient.messages,
+               ContainsSubstring("the group 'g' has no shapes; it is left out with its instances"));
+}
+
 TEST_CASE("what is shared speaks the words of the file, too", "[unit][mitsuba]")
 {
     const TempDirectory directory;
@@ -269,7 +281,8 @@ TEST_CASE("references to emitters, films and samplers", "[unit][mitsuba]")
                    "id='f'/></sensor>")
               .find("'f' contains itself") != std::string::npos);
     // An instance's group may have a name.
-    CHECK(read("<shape type='shapegroup' id='g'/><shape type='instance'><ref name='shapegroup' "
+    CHECK(read("<shape type='shapegroup' id='g'><shape type='disk'/></shape><shape type='instance'><ref "
+               "name='shapegroup' "
                "id='g'/></shape>" +
                rest)
               .messages.empty());
