@@ -97,7 +97,7 @@ std::string problem_of(const SuiteJob& job)
 
 fs::path directory_of(const ForeignImage& foreign)
 {
-    return fs::absolute(fs::path(foreign.at.file).parent_path()).lexically_normal();
+    return fs::absolute(foreign.at.file).lexically_normal().parent_path();
 }
 
 void check_foreign(const SuiteJob& job, Diagnostics& diagnostics)

@@ -13,7 +13,7 @@ constexpr std::string_view vacuum = "Plumb renders surfaces in a vacuum only";
 constexpr std::string_view use_image_texture = "use 'bitmap' with <string name=\"filename\">";
 constexpr std::string_view use_tube =
     "use an 'area' emitter on a small shape inside a black tube, or 'point'";
-constexpr std::string_view use_coat = "use 'principled' or 'roughplastic'";
+constexpr std::string_view use_cloth = "use 'principled', whose sheen is like cloth";
 
 constexpr ForeignName names[] = {
     {"tag", "medium", "", vacuum},
@@ -42,10 +42,9 @@ constexpr ForeignName names[] = {
     {"bsdf", "metal", "roughconductor", ""},
     {"bsdf", "roughmetal", "roughconductor", ""},
     {"bsdf", "substrate", "roughsubstrate", ""},
-    {"bsdf", "coating", "", use_coat},
-    {"bsdf", "ward", "", "use 'roughconductor' or 'phong'"},
     {"bsdf", "blinn", "", "use 'phong'"},
     {"bsdf", "blinn_phong", "", "use 'phong'"},
+    {"bsdf", "irawan", "", use_cloth},
     {"bsdf", "oren_nayar", "", "use 'diffuse'"},
 
     {"shape", "plane", "", "use 'rectangle', or an 'obj' mesh"},

@@ -41,8 +41,10 @@ public:
     void place(Element& element)
     {
         for (Element& child : element.children) {
-            if (child.tag == "ref") place_copy(child);
-            place(child);
+            if (child.tag == "ref")
+                place_copy(child); // and what is in it
+            else
+                place(child);
         }
     }
 
