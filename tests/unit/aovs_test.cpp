@@ -13,6 +13,7 @@
 
 using namespace plumb;
 using namespace plumb::test;
+using Catch::Matchers::WithinAbs;
 
 namespace {
 
@@ -372,10 +373,12 @@ TEST_CASE("means over all samples count what sees nothing as 0", "[unit][aov]")
     const Rendered half(wall(2.f, 0.f, red), 40.f, 256);
     Rendered::each([&](int x, int y) {
         const float coverage = half.at(x, y, "coverage.A");
-        CHECK_THAT(half.at(x, y, "mean_depth.T"), WithinAbs(half.at(x, y, "depth.Z") * coverage, 1e-4));
-        CHECK_THAT(half.at(x, y, "mean_uv.U"), WithinAbs(half.at(x, y, "uv.U") * coverage, 1e-4));
-        CHECK_THAT(half.at(x, y, "mean_object.I"), WithinAbs(coverage, 1e-4));
-        CHECK_THAT(half.at(x, y, "mean_position.Z"), WithinAbs(2.f * coverage, 1e-4));
+        CHECK_THAT(half.at(x, y, "mean_depth.T"),
+                   WithinAbs(static_cast<double>(half.at(x, y, "depth.Z") * coverage), 1e-4));
+        CHECK_THAT(half.at(x, y, "mean_uv.U"),
+                   WithinAbs(static_cast<double>(half.at(x, y, "uv.U") * coverage), 1e-4));
+        CHECK_THAT(half.at(x, y, "mean_object.I"), WithinAbs(static_cast<double>(coverage), 1e-4));
+        CHECK_THAT(half.at(x, y, "mean_position.Z"), WithinAbs(2.0 * static_cast<double>(coverage), 1e-4));
     });
 }
 
