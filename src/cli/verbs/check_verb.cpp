@@ -8,6 +8,7 @@
 #include "base/visible_text.h"
 
 #include "plumb/check/check.h"
+#include "plumb/render/aovs.h"
 
 #include <fmt/format.h>
 
@@ -22,16 +23,17 @@ struct Options : VerbOptions {
 constexpr double megabyte = 1e6;
 
 // What the scene has taken so far, and what film and image will.
-std::string memory_text(const LoadedScene& scene)
+std::string memory_text(const LoadedScene& scene, const std::vector<std::string>& aovs)
 {
     const auto now = static_cast<double>(peak_memory());
     const Vec2i size = scene.job.camera->resolution();
-    constexpr double image_bytes = 7 * sizeof(float);
+    const ChannelSet layers = layers_of(aovs);
+    std::size_t channels = 7; // of colour and its evidence
+    for (const Layer& layer : layers) channels += layer.components.size();
     const double later = static_cast<double>(size.x) * static_cast<double>(size.y) *
-                         (static_cast<double>(Film::bytes_per_pixel()) + image_bytes);
-    return fmt::format(
-        "memory: {:.0f} MB for the scene and the program, {:.0f} MB for film and image without AOVs",
-        now / megabyte, later / megabyte);
+                         static_cast<double>(Film::bytes_per_pixel(layers) + channels * sizeof(float));
+    return fmt::format("memory: {:.0f} MB for the scene and the program, {:.0f} MB for film and image{}",
+                       now / megabyte, later / megabyte, aovs.empty() ? " without AOVs" : "");
 }
 
 int run(const Options& options)
@@ -42,7 +44,7 @@ int run(const Options& options)
     const LoadedScene& scene = task.scene;
     if (!options.quiet) log_scene(task, options.verbose);
     ImageLibrary::hash(); // is loaded, since rendering takes its memory, too
-    const std::string memory = memory_text(scene);
+    const std::string memory = memory_text(scene, options.settings.view.aovs);
     const std::vector<Doubt> doubts = find_doubts(scene.job);
     const bool is_clean = doubts.empty() && scene.warnings.empty();
     for (const Doubt& doubt : doubts)
@@ -72,7 +74,7 @@ Exit code: 0 no mistakes found, 1 errors, 2 wrong usage, 3 likely mistakes.
 
 OptionTable<Options> table()
 {
-    return join<Options>({setting_options<Options>(Topic::image, &Options::settings, {"size", "integrator"}),
+    return join<Options>({setting_options<Options>(Topic::image, &Options::settings, {"size", "aov", "integrator"}),
                           scene_options<Options>(),
                           setting_options<Options>(Topic::running, &Options::settings, {"isa"}),
                           quiet_option<Options>(), verbose_option<Options>(), help_option<Options>()});
