@@ -12,8 +12,8 @@
 #include <fmt/format.h>
 
 using namespace plumb;
-using Catch::Matchers::WithinAbs;
 using namespace plumb::test;
+using Catch::Matchers::WithinAbs;
 
 namespace {
 
@@ -375,8 +375,10 @@ TEST_CASE("means over all samples count what sees nothing as 0", "[unit][aov]")
     const Rendered half(wall(2.f, -1.f, red), 40.f, 256);
     Rendered::each([&](int x, int y) {
         const float coverage = half.at(x, y, "coverage.A");
-        CHECK_THAT(half.at(x, y, "mean_depth.T"), WithinAbs(static_cast<double>(half.at(x, y, "depth.Z") * coverage), 1e-4));
-        CHECK_THAT(half.at(x, y, "mean_uv.U"), WithinAbs(static_cast<double>(half.at(x, y, "uv.U") * coverage), 1e-4));
+        CHECK_THAT(half.at(x, y, "mean_depth.T"),
+                   WithinAbs(static_cast<double>(half.at(x, y, "depth.Z") * coverage), 1e-4));
+        CHECK_THAT(half.at(x, y, "mean_uv.U"),
+                   WithinAbs(static_cast<double>(half.at(x, y, "uv.U") * coverage), 1e-4));
         CHECK_THAT(half.at(x, y, "mean_object.I"), WithinAbs(static_cast<double>(coverage), 1e-4));
         CHECK_THAT(half.at(x, y, "mean_position.Z"), WithinAbs(2.0 * static_cast<double>(coverage), 1e-4));
     });

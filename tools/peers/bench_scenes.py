@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import meshes
+import mitsuba_files
 from description import Camera, Light, Mesh, Image, Scene, Shape
 from objects import MIRROR, cube, dielectric, diffuse, metal
 
@@ -27,6 +28,7 @@ NO_BECKMANN = "LuxCore has no Beckmann metal"
 class BenchScene:
     scene: Scene
     left_out: dict = field(default_factory=dict)  # renderer: reason
+    write: object = None  # of a file of Mitsuba's: (directory, width, height, quick) writes it; `scene` has its name alone
 
 
 def panel(center, normal, width, height, bsdf, radiance=None):
@@ -203,6 +205,12 @@ def large_mesh(camera, quick):
     return BenchScene(Scene("mesh-4m", box_walls() + [ball], camera=camera(**BOX_CAMERA), what=what))
 
 
+def kitchen(camera, quick):
+    mitsuba_only = "a file of Mitsuba's"
+    scene = Scene("kitchen", [], camera=camera(), what="Kitchen in Mitsuba's format: 36 materials, instances, environment map")
+    return BenchScene(scene, {"cycles": mitsuba_only, "luxcore": mitsuba_only}, mitsuba_files.kitchen)
+
+
 MAKERS = {
     "cornell-box": cornell_box,
     "cornell-glass": cornell_glass,
@@ -211,6 +219,7 @@ MAKERS = {
     "room": room,
     "lights-1000": thousand_lights,
     "mesh-4m": large_mesh,
+    "kitchen": kitchen,
 }
 
 

@@ -65,7 +65,10 @@ def measure(name, configurations, directory, options):
     bench = bench_scenes.make(name, options.width, options.height, options.quick)
     scene = bench.scene
     say(f"{name}: writing")
-    write_scene(scene, directory)
+    if bench.write:
+        bench.write(directory, options.width, options.height, options.quick)
+    else:
+        write_scene(scene, directory)
 
     racers, results, converged = {}, {}, {}
     for configuration in configurations:

@@ -20,7 +20,13 @@ class Peer:
 
         drjit.set_thread_count(settings["threads"])
         self.version = "Mitsuba " + mi.__version__
-        self.scene = mitsuba_scene.build(scene, directory, settings["sampler"])
+        if scene.shapes:
+            self.scene = mitsuba_scene.build(scene, directory, settings["sampler"])
+        else:  # a file of Mitsuba's own, which has the sampler 'independent'
+            text = (directory / (scene.name + ".xml")).read_text()
+            file = directory / f"{scene.name}-{settings['sampler']}.xml"
+            file.write_text(text.replace('sampler type="independent"', f'sampler type="{settings["sampler"]}"'))
+            self.scene = mi.load_file(str(file))
         pixels = scene.camera.width * scene.camera.height
         self.most = 1 << ((LARGEST_WAVEFRONT // pixels).bit_length() - 1)
         self.compiled = set()  # numbers of samples

@@ -74,8 +74,9 @@ class Plumb:
     def __init__(self, configuration, scene, directory, options):
         self.scene = directory / (scene.name + ".xml")
         self.file = directory / "plumb.exr"
-        self.words = ["--integrator", configuration.settings["integrator"], "--sampler", configuration.settings["sampler"],
-                      "--threads", str(options.threads)]  # fmt: skip
+        self.words = ["--sampler", configuration.settings["sampler"], "--threads", str(options.threads)]
+        if scene.shapes:  # else its own: a file of Mitsuba's
+            self.words += ["--integrator", configuration.settings["integrator"]]
         self.peak_memory = 0
         self.loads = []
         for _ in range(options.loads):
