@@ -95,7 +95,7 @@ private:
     void order_bsdf(Element& bsdf, const std::string& type)
     {
         drop_values_under_images(bsdf);
-        if (type == "principled")
+        if (type == "principled" && bsdf.written_type() != type) // a fork's name for it
             for (Element& child : bsdf.children)
                 if (child.tag == "texture" && !child.attribute("name") && map_kind(child) == MapKind::none)
                     set_attribute(child, "name", "baseColor");

@@ -173,7 +173,7 @@ and history.json. An image that is up to date (the hashes of scene, options,
 program and image have not changed; for commands of program, inputs, scene file
 and words) is compared, but not rendered.
 --update makes references that are missing, and no other. It keeps the old ones
-that --update=all or --update=NAME replaces, and compares them with the new ones.
+that --update=all or --update=NAME replaces, and compares the new with them.
 Exit code: 1 if an image could not be rendered or compared, else 3 if one
 differs, else 4 if one is undecided, else 0; 2 for wrong usage.
 )";
