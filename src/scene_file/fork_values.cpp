@@ -30,8 +30,9 @@ bool to_fraction(Element& parameter, Diagnostics& diagnostics)
     if (!number) return false;
     const double limited = std::clamp(*number, 0.0, 1.0);
     if (limited == *number) return true;
-    diagnostics.warning(parameter.value_place(*value),
-                        fmt::format("{} must be in [0, 1], not {}; {} is used", parameter.written_name(), *number, limited));
+    diagnostics.warning(
+        parameter.value_place(*value),
+        fmt::format("{} must be in [0, 1], not {}; {} is used", parameter.written_name(), *number, limited));
     set_attribute(parameter, "value", fmt::format("{}", limited));
     return true;
 }
