@@ -9,8 +9,10 @@
 namespace plumb {
 
 /// A light at a point that shines into a cone: the same in all directions up to the half-angle `beamWidth` from its axis, and
-/// from there less, until nothing is left at `cutoffAngle`: linearly in the angle a, or as
-/// ((cos(a) - cos(cutoffAngle)) / (cos(beamWidth) - cos(cutoffAngle)))^4 ([Pharr et al. 2016], section 12.3.1).
+/// from there less, until nothing is left at `cutoffAngle`.
+///
+/// The fall-off is linear in the angle a, or "quartic": ((cos(a) - cos(cutoffAngle)) / (cos(beamWidth) -
+/// cos(cutoffAngle)))^4 (Pharr, Jakob and Humphreys 2016, "Physically Based Rendering", 3rd ed., section 12.3.1).
 ///
 /// `power` P means the intensity P / (2 pi (1 - (cos(cutoffAngle) + cos(beamWidth)) / 2)), as in that book: P is about the
 /// power that the light emits.
