@@ -14,11 +14,18 @@ using namespace plumb;
 
 namespace {
 
+// An easy scene; "1,1,1" is its light.
+std::string bright_scene()
+{
+    std::string scene = easy_scene;
+    return scene.insert(scene.find('>') + 1, "<integrator type=\"path_mis\"/>");
+}
+
 struct ForeignDirectory : TempDirectory {
     ForeignDirectory()
     {
-        write("scene.xml", easy_scene);
-        std::string dark = easy_scene;
+        write("scene.xml", bright_scene());
+        std::string dark = bright_scene();
         dark.replace(dark.find("1,1,1"), 5, "0.8,0.8,0.8");
         write("dark.xml", dark);
         script("copy", "cp \"$1\" \"$2\"");
@@ -330,7 +337,7 @@ TEST_CASE("--update makes what is missing, and replaces only what it is told to"
           "no reference is missing; --update=all or --update=NAME makes them again\n");
 
     // A changed scene blesses nothing by itself, and its reference is said to be stale.
-    std::string brighter = easy_scene;
+    std::string brighter = bright_scene();
     brighter.replace(brighter.find("1,1,1"), 5, "3,3,3");
     directory.write("scene.xml", brighter);
     std::filesystem::remove(directory / "ref/dark.exr");
