@@ -173,10 +173,12 @@ struct TypesVerb {
     {
         return make_verb<Options>(
             {"types", "[NAME]", "list all types, or print a manual", "name", 0, 1},
-            join<Options>({text_option<Options>(Topic::scene, "--dialect", "NAME",
-                                                "in the words of mitsuba3, mitsuba06 or a\ncourse, with what they are called here",
-                                                &Options::dialect, "name"),
-                           json_option<Options>(), help_option<Options>()}),
+            join<Options>(
+                {text_option<Options>(
+                     Topic::scene, "--dialect", "NAME",
+                     "in the words of mitsuba3, mitsuba06 or a\ncourse, with what they are called here",
+                     &Options::dialect, "name"),
+                 json_option<Options>(), help_option<Options>()}),
             run, settle);
     }
 };
