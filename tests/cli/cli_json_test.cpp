@@ -27,15 +27,18 @@ TEST_CASE("an error is JSON where a report would be", "[cli][json]")
     directory.write("wrong.xml", wrong_scene());
     const RunResult run = directory.run({"wrong.xml", "--json", "-"});
     CHECK(run.exit_code == 1);
-    CHECK(run.out == "{\n  \"schema\": 1,\n  \"kind\": \"error\",\n  \"software\": \"Plumb " PLUMB_VERSION "\",\n"
+    CHECK(run.out == "{\n  \"schema\": 1,\n  \"kind\": \"error\",\n  \"software\": \"Plumb " PLUMB_VERSION
+                     "\",\n"
                      "  \"exit_code\": 1,\n  \"errors\": [\n    {\n      \"file\": \"wrong.xml\",\n"
-                     "      \"line\": 12,\n      \"column\": 33,\n      \"severity\": \"error\",\n"
+                     "      \"line\": 12,\n      \"column\": 39,\n      \"severity\": \"error\",\n"
                      "      \"message\": \"unknown parameter 'albdo' for bsdf 'diffuse'\",\n"
                      "      \"suggestion\": \"did you mean 'albedo'?\"\n    }\n  ]\n}\n");
-    CHECK(run.err.starts_with("wrong.xml:12:33: error: unknown parameter 'albdo' for bsdf 'diffuse'; did you"));
+    CHECK(
+        run.err.starts_with("wrong.xml:12:39: error: unknown parameter 'albdo' for bsdf 'diffuse'; did you"));
     for (const char* verb : {"check", "agree", "race"})
         CHECK(directory.run({verb, "wrong.xml", "--json", "-"}).out == run.out);
-    CHECK(directory.run({"replay", "wrong.xml", "--pixel", "0,0", "--sample", "0", "--json=-"}).out == run.out);
+    CHECK(directory.run({"replay", "wrong.xml", "--pixel", "0,0", "--sample", "0", "--json=-"}).out ==
+          run.out);
 
     const RunResult usage = directory.run({"scene.xml", "--json", "out.json", "--sppp", "4"});
     CHECK(usage.exit_code == 2);
@@ -66,15 +69,16 @@ TEST_CASE("an error replaces no file that is not a report", "[cli][json]")
 TEST_CASE("info as JSON, and pixels for numpy", "[cli][json]")
 {
     const SceneDirectory directory;
-    CHECK(directory
-              .run({"scene.xml", "--spp", "2", "--crop", "1,2,3,4", "--no-variance", "--quiet", "-o", "a.exr"})
-              .exit_code == 0);
+    CHECK(
+        directory
+            .run({"scene.xml", "--spp", "2", "--crop", "1,2,3,4", "--no-variance", "--quiet", "-o", "a.exr"})
+            .exit_code == 0);
     const RunResult info = directory.run({"info", "a.exr", "--json", "-", "--pixels", "a.npy"});
     CHECK(info.exit_code == 0);
-    for (const char* part :
-         {"\"kind\": \"info\"", "\"resolution\": [\n    48,\n    36\n  ]",
-          "\"window\": [\n    1,\n    2,\n    3,\n    4\n  ]", "\"channels\": [\n    \"R\",\n    \"G\",\n    \"B\"",
-          "\"plumb:samplesPerPixel\": 2", "\"plumb:seed\": \"0\""})
+    for (const char* part : {"\"kind\": \"info\"", "\"resolution\": [\n    48,\n    36\n  ]",
+                             "\"window\": [\n    1,\n    2,\n    3,\n    4\n  ]",
+                             "\"channels\": [\n    \"R\",\n    \"G\",\n    \"B\"",
+                             "\"plumb:samplesPerPixel\": 2", "\"plumb:seed\": \"0\""})
         CHECK_THAT(info.out, ContainsSubstring(part));
     CHECK(directory.run({"info", "a.exr"}).out.find('{') == std::string::npos);
 
@@ -90,7 +94,8 @@ TEST_CASE("info as JSON, and pixels for numpy", "[cli][json]")
     for (int y = 0; y < 4; ++y) {
         for (int x = 0; x < 3; ++x) {
             float values[3];
-            std::memcpy(values, npy.data() + 10 + header + static_cast<std::size_t>(3 * y + x) * sizeof values,
+            std::memcpy(values,
+                        npy.data() + 10 + header + static_cast<std::size_t>(3 * y + x) * sizeof values,
                         sizeof values);
             for (int i = 0; i < 3; ++i) CHECK(values[i] == image.pixel(1 + x, 2 + y)[i]);
         }
@@ -110,10 +115,11 @@ TEST_CASE("types as JSON has every parameter of the manual", "[cli][json]")
         CHECK_THAT(all, ContainsSubstring(part));
     const RunResult one = directory.run({"types", "roughconductor", "--json", "-"});
     CHECK(one.exit_code == 0);
-    CHECK_THAT(one.out, ContainsSubstring("{\n          \"name\": \"alpha\",\n"
-                                          "          \"type\": \"float or texture\",\n"
-                                          "          \"description\": \"roughness, in [0, 1]; less than 0.0001 counts as "
-                                          "0.0001\",\n          \"default\": \"0.1\"\n"));
+    CHECK_THAT(one.out, ContainsSubstring(
+                            "{\n          \"name\": \"alpha\",\n"
+                            "          \"type\": \"float or texture\",\n"
+                            "          \"description\": \"roughness, in [0, 1]; less than 0.0001 counts as "
+                            "0.0001\",\n          \"default\": \"0.1\"\n"));
     CHECK(one.out.find("\"name\": \"diffuse\"") == std::string::npos);
     // No row of a manual was misread.
     CHECK(all.find("\"type\": \"\"") == std::string::npos);

@@ -19,7 +19,7 @@ except ImportError:
     sys.exit(77)
 import plumb  # noqa: E402
 
-SCENE = """<scene dialect="plumb">
+SCENE = """<scene dialect="plumb"><integrator type="path_mis"/>
   <sampler type="independent"><integer name="sampleCount" value="16"/></sampler>
   <camera type="perspective">
     <transform name="toWorld"><lookat origin="0,0,-0.9" target="0,0,1" up="0,1,0"/></transform>
@@ -43,7 +43,7 @@ class PlumbTest(unittest.TestCase):
         self.scene.write_text(SCENE.replace("{albedo}", "0.7,0.6,0.5"))
 
     def test_a_rendering_is_arrays_and_a_header(self):
-        image = plumb.render(self.scene, spp=4, seed=3, size=(16, 12), aovs=["normal"])
+        image = plumb.render(self.scene, spp=4, seed=3, size=(16, 12), aov=["normal"])
         self.assertEqual(image.pixels.shape, (12, 16, 3))
         self.assertEqual(image.pixels.dtype, np.float32)
         self.assertEqual(image.variance.shape, (12, 16, 3))
@@ -98,10 +98,10 @@ class PlumbTest(unittest.TestCase):
         with self.assertRaises(plumb.Error) as caught:
             plumb.render(self.scene)
         self.assertEqual(caught.exception.file, str(self.scene))
-        self.assertEqual((caught.exception.line, caught.exception.column), (9, 38))
+        self.assertEqual((caught.exception.line, caught.exception.column), (9, 39))
         self.assertEqual(caught.exception.message, "unknown parameter 'albdo' for bsdf 'diffuse'")
         self.assertEqual(caught.exception.suggestion, "did you mean 'albedo'?")
-        self.assertIn(f"{self.scene}:9:38: error: ", str(caught.exception))
+        self.assertIn(f"{self.scene}:9:39: error: ", str(caught.exception))
         with self.assertRaises(plumb.UsageError) as caught:
             plumb.render(self.scene, sppp=4)
         self.assertEqual(caught.exception.suggestion, "did you mean '--spp'?")

@@ -34,5 +34,6 @@ TEST_CASE("placeholders of a command", "[unit][suite]")
     CHECK(with_placeholders("", values).empty());
     for (const char* wrong : {"{", "}", "{a", "a}", "{a}}", "{{a}"})
         CHECK_THROWS_AS(with_placeholders(wrong, values), Error);
-    CHECK_THROWS_WITH(with_placeholders("{bb}", {{"bc", ""}}), "unknown placeholder '{bb}'; did you mean 'bc'?");
+    CHECK_THROWS_WITH(with_placeholders("{bb}", {{"bc", ""}}),
+                      "unknown placeholder '{bb}'; did you mean 'bc'?");
 }

@@ -12,7 +12,7 @@ def render(scene, *, output=None, **settings):
     """Renders a scene file, and returns an Image.
 
     settings: the options of `renderer`, with _ for -: spp=64, seed=7, size=(320, 240), integrator="path_mis",
-              aovs=["normal"], define={"albedo": "0.3"}, no_variance=True
+              aov=["normal"], define={"albedo": "0.3"}, no_variance=True
     output:   also keep the image in this file
     Raises Error, with file, line and column of what is wrong in the scene.
     """
