@@ -97,7 +97,8 @@ std::string problem_of(const SuiteJob& job)
 
 fs::path directory_of(const ForeignImage& foreign)
 {
-    return fs::absolute(foreign.at.file).lexically_normal().parent_path();
+    const fs::path directory = fs::path(foreign.at.file).parent_path();
+    return directory.empty() ? fs::current_path() : fs::absolute(directory).lexically_normal();
 }
 
 void check_foreign(const SuiteJob& job, Diagnostics& diagnostics)

@@ -91,6 +91,16 @@ std::string stem_of_replica(const ForeignJob& job, int replica)
     return job.job.entry.foreign->replicas == 1 ? job.stem : fmt::format("{}_r{}", job.stem, replica + 1);
 }
 
+// What cannot be read takes nothing's place.
+void check_readable(const fs::path& written, const ForeignImage& foreign, const ProgramRun& run)
+{
+    try {
+        read_image(written, false);
+    } catch (const Error& error) {
+        throw ProgramError(foreign.at, error.what(), run);
+    }
+}
+
 ChildRun run_replica(const ForeignJob& job, int replica, const WorkDirectory& work)
 {
     const ForeignImage& foreign = *job.job.entry.foreign;
@@ -166,6 +176,7 @@ ForeignImages run_command(const ForeignJob& job)
         if (written.empty())
             throw ProgramError(foreign.at,
                                "the command ended without an error, but wrote no image to {image}", made.run);
+        check_readable(written, foreign, made.run);
         const std::string file = stem_of_replica(job, replica) + written.extension().string();
         std::error_code problem;
         fs::rename(written, file, problem);

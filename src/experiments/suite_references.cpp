@@ -11,6 +11,7 @@
 #include "rendering/provenance.h"
 #include "settings/options_text.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace plumb {
@@ -43,12 +44,19 @@ std::vector<std::string> changes_since(const Metadata& then, const Metadata& now
 
 bool has_same_pixels(const Image& a, const Image& b)
 {
-    if (a.data_window() != b.data_window() || a.channel_names() != b.channel_names()) return false;
+    if (a.data_window() != b.data_window() || a.channel_count() != b.channel_count()) return false;
+    std::vector<std::ptrdiff_t> places; // in b, of the channels of a: a file may have them in another order
+    for (const std::string& name : a.channel_names()) {
+        const auto& names = b.channel_names();
+        const auto found = std::find(names.begin(), names.end(), name);
+        if (found == names.end()) return false;
+        places.push_back(found - names.begin());
+    }
     const PixelRect& window = a.data_window();
     for (int y = window.y; y < window.y + window.height; ++y)
         for (int x = window.x; x < window.x + window.width; ++x)
             for (int i = 0; i < a.channel_count(); ++i) {
-                const float p = a.pixel(x, y)[i], q = b.pixel(x, y)[i];
+                const float p = a.pixel(x, y)[i], q = b.pixel(x, y)[places[static_cast<std::size_t>(i)]];
                 if (p != q && (p == p || q == q)) return false;
             }
     return true;

