@@ -21,7 +21,7 @@ std::string types_json(std::string_view only = {});
 // What rendering takes, in bytes.
 struct MemoryNeeds {
     double scene = 0.0; // and the program
-    double image = 0.0; // film and image without AOVs
+    double image = 0.0; // film and image, with the layers that are asked for
 };
 std::string check_json(const RenderTask& task, const std::vector<Doubt>& doubts, const MemoryNeeds& memory);
 

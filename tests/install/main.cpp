@@ -77,11 +77,11 @@ void do_all(const std::filesystem::path& scene, const std::filesystem::path& sui
 
     SuiteOptions how;
     how.directory = out / "suite";
-    ShownImages images(2);
+    ShownImages shown(2);
     const SuiteRun run =
         run_suite(suite, plan_suite(suite), how, {},
-                  [&](const SuiteResult& result, const SuiteImages& images) { images.add(result, images); });
-    write_suite_reports(run, images, how.directory);
+                  [&](const SuiteResult& result, const SuiteImages& images) { shown.add(result, images); });
+    write_suite_reports(run, shown, how.directory);
     check(run.count(Verdict::passes) == 1 && exit_code_of(run) == 0, "suite");
 }
 

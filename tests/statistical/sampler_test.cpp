@@ -159,7 +159,7 @@ TEST_CASE("neighbouring samples are independent and uniform", "[statistical][sam
                     if (neighbour == vertex) sampler->start_vertex(0);
                     cells.add(x, static_cast<double>(sampler->next_1d()));
                 }
-                return cells.verdict();
+                return cells.outcome();
             },
             100000, test::sidak_level(test::significance, tests), 11);
         CHECK(passed);
@@ -187,7 +187,7 @@ TEST_CASE("pairs of numbers and numbers for choices are uniform", "[statistical]
                 else
                     cells.add(static_cast<double>(pair.x), static_cast<double>(pair.y));
             }
-            return cells.verdict();
+            return cells.outcome();
         },
         100000, test::sidak_level(test::significance, 4), 5);
     CHECK(passed);

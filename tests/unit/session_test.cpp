@@ -74,14 +74,14 @@ TEST_CASE("a session says what it has to say to callbacks, and goes on to the sa
 
 TEST_CASE("what is known of an estimate decides as a header does", "[unit][session]")
 {
-    const auto image = [] {
+    const auto grey = [] {
         Image image({0, 0, 8, 8}, 8, 8, {"R", "G", "B", "variance.R", "variance.G", "variance.B"});
         for (int y = 0; y < 8; ++y)
             for (int x = 0; x < 8; ++x) std::fill_n(image.pixel(x, y), 6, 0.25f);
         return image;
     };
-    Image a = image();
-    Image b = image();
+    Image a = grey();
+    Image b = grey();
     a.pixel(3, 3)[0] = 0.5f;
     for (Image* image : {&a, &b}) image->metadata.emplace_back("plumb:samplesPerPixel", 16);
     const Comparison by_header = compare(a, b);
@@ -90,5 +90,5 @@ TEST_CASE("what is known of an estimate decides as a header does", "[unit][sessi
     const Comparison by_facts = compare(known_a, known_b);
     CHECK(by_header.significance.p == by_facts.significance.p);
     CHECK(by_header.verdict == by_facts.verdict);
-    CHECK(compare({"a", image(), 2.0, {}, {}}, {"b", image(), 2.0, {}, {}}).identical);
+    CHECK(compare({"a", grey(), 2.0, {}, {}}, {"b", grey(), 2.0, {}, {}}).identical);
 }

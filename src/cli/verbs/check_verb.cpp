@@ -10,6 +10,7 @@
 #include "base/visible_text.h"
 
 #include "plumb/check/check.h"
+#include "plumb/render/aovs.h"
 
 #include <fmt/format.h>
 
@@ -30,13 +31,15 @@ void settle(Options& options)
 constexpr double megabyte = 1e6;
 
 // What the scene has taken so far, and what film and image will.
-MemoryNeeds memory_needs(const LoadedScene& scene)
+MemoryNeeds memory_needs(const LoadedScene& scene, const std::vector<std::string>& aovs)
 {
     const auto now = static_cast<double>(peak_memory());
     const Vec2i size = scene.job.camera->resolution();
-    constexpr double image_bytes = 7 * sizeof(float);
+    const ChannelSet layers = layers_of(aovs);
+    std::size_t channels = 7; // of colour and its evidence
+    for (const Layer& layer : layers) channels += layer.components.size();
     const double later = static_cast<double>(size.x) * static_cast<double>(size.y) *
-                         (static_cast<double>(Film::bytes_per_pixel()) + image_bytes);
+                         static_cast<double>(Film::bytes_per_pixel(layers) + channels * sizeof(float));
     return {now, later};
 }
 
@@ -49,7 +52,8 @@ int run(const Options& options)
     const LoadedScene& scene = task.scene;
     if (!options.quiet) log_scene(task, options.verbose);
     ImageLibrary::hash(); // is loaded, since rendering takes its memory, too
-    const MemoryNeeds memory = memory_needs(scene);
+    const std::vector<std::string>& aovs = options.settings.view.aovs;
+    const MemoryNeeds memory = memory_needs(scene, aovs);
     const std::vector<Doubt> doubts = find_doubts(scene.job);
     const bool is_clean = doubts.empty() && scene.warnings.empty();
     write_json(options.json, check_json(task, doubts, memory));
@@ -59,8 +63,8 @@ int run(const Options& options)
                                  visible_text(doubt.text)));
     if (!options.quiet) {
         print_output(fmt::format(
-            "memory: {:.0f} MB for the scene and the program, {:.0f} MB for film and image without AOVs\n",
-            memory.scene / megabyte, memory.image / megabyte));
+            "memory: {:.0f} MB for the scene and the program, {:.0f} MB for film and image{}\n",
+            memory.scene / megabyte, memory.image / megabyte, aovs.empty() ? " without AOVs" : ""));
         if (is_clean) print_output("no mistakes found\n");
     }
     return is_clean ? exit_code::done : exit_code::differs;
@@ -83,11 +87,11 @@ Exit code: 0 no mistakes found, 1 errors, 2 wrong usage, 3 likely mistakes.
 
 OptionTable<Options> table()
 {
-    return join<Options>({json_option<Options>(),
-                          setting_options<Options>(Topic::image, &Options::settings, {"size", "integrator"}),
-                          scene_options<Options>(),
-                          setting_options<Options>(Topic::running, &Options::settings, {"isa"}),
-                          quiet_option<Options>(), verbose_option<Options>(), help_option<Options>()});
+    return join<Options>(
+        {json_option<Options>(),
+         setting_options<Options>(Topic::image, &Options::settings, {"size", "aov", "integrator"}),
+         scene_options<Options>(), setting_options<Options>(Topic::running, &Options::settings, {"isa"}),
+         quiet_option<Options>(), verbose_option<Options>(), help_option<Options>()});
 }
 
 } // namespace
