@@ -228,8 +228,11 @@ void SuiteRunner::compare_with_reference(const SuiteJob& job, SuiteResult& resul
     }
     result.state = JobState::compared;
     result.verdict = result.comparison->verdict;
-    // A wrong image of another program is no reason for another reference; one that is stale is.
-    if (!entry.scene.empty() && (!result.stale.empty() || (result.is_failure() && !entry.foreign)))
+    // A wrong image of another program, or of another scene, is no reason for another reference.
+    const SuiteJob* const maker = maker_of(job);
+    const bool is_of_maker = maker && !entry.foreign && maker->entry.scene == entry.scene &&
+                             maker->entry.definitions == entry.definitions;
+    if (!result.stale.empty() || (result.verdict == Verdict::differs && is_of_maker))
         result.accept_command = suite_command(" --update=" + shell_quote(entry.reference.string()));
     write_maps(*image_, reference, stem_of(result.title), result);
 }

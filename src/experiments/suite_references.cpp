@@ -149,19 +149,38 @@ void SuiteRunner::check_reference(const SuiteJob& job, SuiteResult& result)
     result.accept_command = suite_command(" --update=" + shell_quote(file));
 }
 
-// Without rendering: what its header tells of program, files and settings.
+const SuiteJob* SuiteRunner::maker_of(const SuiteJob& job) const
+{
+    for (const SuiteJob& one : jobs_)
+        if (one.entry.reference == job.entry.reference && !one.entry.scene.empty()) return &one;
+    return nullptr;
+}
+
 void SuiteRunner::note_stale(const SuiteJob& job, const Image& reference, SuiteResult& result)
 {
-    if (job.entry.scene.empty()) return;
-    const std::string file = job.entry.reference.string();
+    const SuiteJob* const maker = maker_of(job);
+    if (!maker) return;
+    const auto known = stale_.find(job.entry.reference);
+    result.stale =
+        known != stale_.end()
+            ? known->second
+            : stale_.emplace(job.entry.reference, stale_reasons(*maker, reference, result)).first->second;
+}
+
+// Without rendering: what its header tells of program, files and settings.
+std::vector<std::string> SuiteRunner::stale_reasons(const SuiteJob& maker, const Image& reference,
+                                                    SuiteResult& result)
+{
+    const std::string file = maker.entry.reference.string();
     const std::optional<RenderSettings> settings = settings_of_image(reference, file);
-    if (!settings) return;
+    if (!settings) return {};
     try {
-        const RenderTask task = task_of(job.entry, *settings);
-        result.stale = changes_since(reference.metadata, scene_header(task));
+        const RenderTask task = task_of(maker.entry, *settings);
+        return changes_since(reference.metadata, scene_header(task));
     } catch (const Error& error) {
         result.warnings.push_back(
             fmt::format("whether '{}' is stale cannot be said: {}", file, error.what()));
+        return {};
     }
 }
 

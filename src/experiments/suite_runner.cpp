@@ -31,6 +31,7 @@ std::string output_text(const std::string& output)
 SuiteRunner::SuiteRunner(const fs::path& suite, const std::vector<SuiteJob>& jobs,
                          const SuiteOptions& options, const SessionCallbacks& callbacks)
     : suite_(suite),
+      jobs_(jobs),
       options_(options),
       callbacks_(callbacks),
       state_(options.directory),

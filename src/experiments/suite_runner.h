@@ -7,6 +7,7 @@
 #include "plumb/experiments/suite_run.h"
 #include "rendering/output_files.h"
 
+#include <map>
 #include <memory>
 #include <set>
 
@@ -50,17 +51,23 @@ private:
     void make_reference(const SuiteJob& job, SuiteResult& result);
     void check_reference(const SuiteJob& job, SuiteResult& result);
     void note_stale(const SuiteJob& job, const Image& reference, SuiteResult& result);
+    std::vector<std::string> stale_reasons(const SuiteJob& maker, const Image& reference,
+                                           SuiteResult& result);
+    // The entry that makes the reference of a job: the first one with a scene. Null: it comes from elsewhere.
+    const SuiteJob* maker_of(const SuiteJob& job) const;
     void compare_references(const SuiteJob& job, Image now, Image before, SuiteResult& result);
     std::string suite_command(const std::string& words) const;
 
     const std::filesystem::path& suite_;
+    const std::vector<SuiteJob>& jobs_;
     const SuiteOptions& options_;
     const SessionCallbacks& callbacks_;
     SuiteState state_;
     KeptFiles kept_;               // that no image may replace
     std::set<std::string> titles_; // that are taken
     std::unique_ptr<SceneFile> last_;
-    std::optional<Image> image_, reference_; // of the last job
+    std::map<std::filesystem::path, std::vector<std::string>> stale_; // of the references looked at so far
+    std::optional<Image> image_, reference_;                          // of the last job
 };
 
 } // namespace plumb

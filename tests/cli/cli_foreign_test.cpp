@@ -36,13 +36,14 @@ struct ForeignDirectory : TempDirectory {
         const auto file = write(name, "#!/bin/sh\n" + text + "\n");
         std::filesystem::permissions(file, std::filesystem::perms::owner_all);
     }
-    void render(const std::string& name, const std::string& seed,
-                const std::string& scene = "scene.xml") const
+    // As another program does: without error bars.
+    void render(const std::string& name, const std::string& seed, const std::string& scene = "scene.xml",
+                Names more = {"--no-variance"}) const
     {
         std::filesystem::create_directories((*this / name).parent_path());
-        REQUIRE(run_renderer({scene, "--spp", "64", "--seed", seed, "--no-variance", "--quiet", "-o", name},
-                             path())
-                    .exit_code == 0);
+        Names words = {scene, "--spp", "64", "--seed", seed, "--size", "48x36", "--quiet", "-o", name};
+        words.insert(words.end(), more.begin(), more.end());
+        REQUIRE(run_renderer(words, path()).exit_code == 0);
     }
     void suite(const std::string& entries) const
     {
@@ -80,7 +81,7 @@ bool lives(pid_t process)
 TEST_CASE("batch compares images that are there", "[cli][batch][foreign]")
 {
     const ForeignDirectory directory;
-    directory.render("ref.exr", "9");
+    directory.render("ref.exr", "9", "scene.xml", {});
     directory.render("out/a.exr", "1");
     directory.render("out/dark.exr", "1", "dark.xml");
     directory.suite("<render image=\"out/a.exr\" name=\"a\" reference=\"ref.exr\"/>");
@@ -263,12 +264,12 @@ TEST_CASE("a command has no shell, and a directory of its own", "[cli][batch][fo
     directory.render("in.exr", "1");
     directory.script("show",
                      "for word in \"$@\"; do echo \"<$word>\"; done; pwd; echo \"$TMPDIR\"; cat; exit 1");
-    directory.suite(
-        entry(R"(./show 'a b' "c d" `id` * > x; {{{seed}}} {name} {replica} {width}x{height} {image})",
-              "size=\"4x3\" seed=\"5\""));
+    directory.suite(entry(
+        R"(./show 'a b' "c d" \$$HOME $$(id) `id` * > x; {{{seed}}} {name} {replica} {width}x{height} {image})",
+        "size=\"4x3\" seed=\"5\""));
     const std::string out = directory.batch().out;
-    for (const char* word :
-         {"<a b>", "<c d>", "<`id`>", "<*>", "<>>", "<x;>", "<{5}>", "<mine>", "<1>", "<4x3>"})
+    for (const char* word : {"<a b>", "<c d>", "<$HOME>", "<$(id)>", "<`id`>", "<*>", "<>>", "<x;>", "<{5}>",
+                             "<mine>", "<1>", "<4x3>"})
         CHECK_THAT(out, ContainsSubstring("\n    " + std::string(word) + "\n"));
     const std::string work = (directory / "batch/suite/mine_work").string();
     CHECK_THAT(out, ContainsSubstring("\n    " + work + "\n    " + work + "\n"));
@@ -381,7 +382,7 @@ TEST_CASE("--update makes what is missing, and replaces only what it is told to"
 TEST_CASE("the report has failures first and remembers earlier runs", "[cli][batch][foreign]")
 {
     const ForeignDirectory directory;
-    directory.render("ref.exr", "9");
+    directory.render("ref.exr", "9", "scene.xml", {});
     directory.render("a.exr", "1");
     directory.render("dark.exr", "1", "dark.xml");
     directory.suite("<render image=\"a.exr\" name=\"a\" reference=\"ref.exr\"/>"
