@@ -64,6 +64,19 @@ std::string list_text(const std::vector<std::string>& items)
     return text;
 }
 
+std::vector<std::string> list_items(std::string_view text)
+{
+    std::vector<std::string> items;
+    while (!text.empty()) {
+        std::string_view item = text.substr(0, text.find(','));
+        text.remove_prefix(std::min(item.size() + 1, text.size()));
+        item.remove_prefix(std::min(item.find_first_not_of(' '), item.size()));
+        item = item.substr(0, item.find_last_not_of(' ') + 1); // npos + 1 is 0
+        if (!item.empty()) items.emplace_back(item);
+    }
+    return items;
+}
+
 std::string lines_text(const std::vector<std::string>& items)
 {
     std::string text;

@@ -31,14 +31,10 @@ public:
         const float sum = std::accumulate(weights_.begin(), weights_.end(), 0.f);
         for (const float weight : weights_) chances_.push_back(sum > 0.f ? weight / sum : 0.f);
         is_black_ = !(sum > 0.f);
+        for (const auto& part : parts_) lobes_ = lobes_ | part->lobes();
     }
 
-    Lobes lobes() const override
-    {
-        Lobes lobes;
-        for (const auto& part : parts_) lobes = lobes | part->lobes();
-        return lobes;
-    }
+    Lobes lobes() const override { return lobes_; }
     bool is_oriented() const override
     {
         return any([](const Bsdf& part) { return part.is_oriented(); });
@@ -135,6 +131,7 @@ private:
     std::vector<float> weights_;
     std::vector<float> chances_; // in proportion to the weights
     std::vector<std::shared_ptr<const Bsdf>> parts_;
+    Lobes lobes_;
     bool is_black_ = false;
 };
 

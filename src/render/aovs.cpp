@@ -36,8 +36,7 @@ Vec3f towards_viewer(const SeenSurface& seen, const Vec3f& normal)
 // IEC 61966-2-1: of linear sRGB.
 Vec3f xyz_of(const Color& c)
 {
-    return {0.412453f * c.r + 0.357580f * c.g + 0.180423f * c.b,
-            0.212671f * c.r + 0.715160f * c.g + 0.072169f * c.b,
+    return {0.412453f * c.r + 0.357580f * c.g + 0.180423f * c.b, luminance(c),
             0.019334f * c.r + 0.119193f * c.g + 0.950227f * c.b};
 }
 

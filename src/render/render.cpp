@@ -184,7 +184,7 @@ Rendering::Rendering(const RenderJob& job, const RenderOptions& options, RenderS
     : job_(job), options_(options), state_(std::move(state))
 {
     if (const ChannelSet wanted = layers_of(options.aovs); state_.film.layers() != wanted)
-        throw Error(fmt::format("the samples so far have the layers {}, but {} are asked for",
+        throw Error(fmt::format("the samples so far have the layers {}, not {}",
                                 layer_names(state_.film.layers()), layer_names(wanted)));
 }
 

@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 #include "base/parallel.h"
+#include "base/text.h"
 #include "plumb/render/aovs.h"
 #include "scene_file/axis_camera.h"
 #include "scene_file/build_child.h"
@@ -148,14 +149,7 @@ void SceneBuilder::check_property(const Element& child)
 // "albedo, dd.y:mean_depth".
 void SceneBuilder::read_aovs(const Property& property)
 {
-    std::string_view rest = property.text;
-    while (!rest.empty()) {
-        std::string_view one = rest.substr(0, rest.find(','));
-        rest.remove_prefix(std::min(one.size() + 1, rest.size()));
-        one.remove_prefix(std::min(one.find_first_not_of(' '), one.size()));
-        one = one.substr(0, one.find_last_not_of(' ') + 1); // npos + 1 is 0
-        if (!one.empty()) aovs_.emplace_back(one);
-    }
+    for (std::string& aov : list_items(property.text)) aovs_.push_back(std::move(aov));
     try {
         layers_of(aovs_);
     } catch (const Error& problem) {

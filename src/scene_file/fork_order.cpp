@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -37,10 +38,21 @@ MapKind map_kind(const Element& child)
     return says(child, "bump") || says(child, "height") ? MapKind::height : MapKind::none;
 }
 
-// The BSDF with the map around it, which has its id.
-Element mapped(Element bsdf, Element map, MapKind kind)
+// The first child that is a map, which goes.
+std::optional<Element> take_map(Element& element)
 {
-    const bool is_normal = kind == MapKind::normal;
+    const auto map = std::find_if(element.children.begin(), element.children.end(),
+                                  [](const Element& child) { return map_kind(child) != MapKind::none; });
+    if (map == element.children.end()) return {};
+    Element taken = std::move(*map);
+    element.children.erase(map);
+    return taken;
+}
+
+// The BSDF with the map around it, which has its id.
+Element mapped(Element bsdf, Element map)
+{
+    const bool is_normal = map_kind(map) == MapKind::normal;
     Element outer = made_object(bsdf, "bsdf", is_normal ? "normalmap" : "bumpmap");
     if (bsdf.tag == "bsdf")
         for (Attribute& attribute : bsdf.attributes)
@@ -100,13 +112,7 @@ private:
                 if (child.tag == "texture" && !child.attribute("name") && map_kind(child) == MapKind::none)
                     set_attribute(child, "name", "baseColor");
         if (type == "normalmap" || type == "bumpmap") return;
-        const auto map = std::find_if(bsdf.children.begin(), bsdf.children.end(),
-                                      [](const Element& child) { return map_kind(child) != MapKind::none; });
-        if (map == bsdf.children.end()) return;
-        Element taken = std::move(*map);
-        const MapKind kind = map_kind(taken);
-        bsdf.children.erase(map);
-        bsdf = mapped(std::move(bsdf), std::move(taken), kind);
+        if (std::optional<Element> map = take_map(bsdf)) bsdf = mapped(std::move(bsdf), *std::move(map));
     }
 
     // An image given by its name alone stands in for the value that is given as well.
@@ -126,19 +132,15 @@ private:
     void order_shape(Element& shape)
     {
         if (folded(shape.written_type()) == "parallelogram") order_parallelogram(shape);
-        const auto map = std::find_if(shape.children.begin(), shape.children.end(),
-                                      [](const Element& child) { return map_kind(child) != MapKind::none; });
-        if (map == shape.children.end()) return;
-        Element taken = std::move(*map);
-        const MapKind kind = map_kind(taken);
-        shape.children.erase(map);
+        std::optional<Element> map = take_map(shape);
+        if (!map) return;
         const auto bsdf =
             std::find_if(shape.children.begin(), shape.children.end(),
                          [](const Element& child) { return child.tag == "bsdf" || child.tag == "ref"; });
         if (bsdf == shape.children.end())
-            shape.children.push_back(mapped(made_object(shape, "bsdf", "diffuse"), std::move(taken), kind));
+            shape.children.push_back(mapped(made_object(shape, "bsdf", "diffuse"), *std::move(map)));
         else
-            *bsdf = mapped(std::move(*bsdf), std::move(taken), kind);
+            *bsdf = mapped(std::move(*bsdf), *std::move(map));
     }
 
     // A rectangle of width and height 1 around 0, with +z in front, goes to origin + s u + t v.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "scene_file/mitsuba_words.h"
 
+#include "base/text.h"
 #include "plumb/render/channel_set.h"
 #include "scene_file/property_values.h"
 
@@ -242,18 +243,12 @@ private:
                                        [](const Element& child) { return child.value("name") == "aovs"; });
         const Attribute* value = list == aov.children.end() ? nullptr : list->attribute("value");
         if (!value || value->broken) return;
-        std::string_view rest = value->value;
-        while (!rest.empty()) {
-            std::string_view one = rest.substr(0, rest.find(','));
-            rest.remove_prefix(std::min(one.size() + 1, rest.size()));
-            one.remove_prefix(std::min(one.find_first_not_of(' '), one.size()));
-            one = one.substr(0, one.find_last_not_of(' ') + 1); // npos + 1 is 0
-            if (one.empty()) continue;
+        for (const std::string& one : list_items(value->value)) {
             const std::size_t colon = one.find(':');
-            const std::string_view theirs = colon == one.npos ? "" : one.substr(colon + 1);
+            const std::string theirs = colon == one.npos ? "" : one.substr(colon + 1);
             const auto* channel = std::find_if(std::begin(channels), std::end(channels),
                                                [&](const Channel& row) { return row.theirs == theirs; });
-            const std::string layer = prefix + std::string(one.substr(0, colon));
+            const std::string layer = prefix + one.substr(0, colon);
             if (channel == std::end(channels) || !is_layer_name(layer)) {
                 diagnostics_.warning(
                     list->value_place(*value),

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 
 #include <fmt/format.h>
@@ -11,15 +12,11 @@ namespace plumb {
 
 namespace {
 
-bool is_one_of(std::string_view tag, std::initializer_list<std::string_view> tags)
-{
-    return std::find(tags.begin(), tags.end(), tag) != tags.end();
-}
-
 bool is_copied(const Element& element)
 {
-    return is_one_of(element.tag,
-                     {"emitter", "film", "rfilter", "sampler", "integrator", "spectrum", "rgb", "sensor"});
+    constexpr std::string_view tags[] = {"emitter",    "film",     "rfilter", "sampler",
+                                         "integrator", "spectrum", "rgb",     "sensor"};
+    return std::find(std::begin(tags), std::end(tags), element.tag) != std::end(tags);
 }
 
 std::size_t count_parts(const Element& element)
@@ -61,7 +58,7 @@ private:
     {
         const Attribute* id = element.tag == "ref" ? nullptr : element.attribute("id");
         if (id && !id->broken && (is_copied(element) || element.tag == "shape"))
-            by_id_.emplace(id->value, element);
+            by_id_.emplace(id->value, element.tag == "shape" ? std::nullopt : std::optional(element));
         for (const Element& child : element.children) collect(child);
     }
 
@@ -70,11 +67,11 @@ private:
         const std::string id = ref.value("id");
         const auto found = by_id_.find(id);
         if (found == by_id_.end()) return; // of our own kinds, or reported elsewhere
-        if (found->second.tag == "shape") {
+        if (!found->second) {
             std::erase_if(ref.attributes, [](const Attribute& a) { return a.name == "name"; });
             return;
         }
-        const std::size_t parts = count_parts(found->second);
+        const std::size_t parts = count_parts(*found->second);
         if (open_.contains(id) || parts > left_) {
             diagnostics_.error(ref.place(),
                                open_.contains(id)
@@ -84,9 +81,9 @@ private:
         }
         left_ -= parts;
         copied_.insert(id);
-        Element copy = found->second;
+        Element copy = *found->second;
         std::erase_if(copy.attributes, [](const Attribute& a) { return a.name == "id" || a.name == "name"; });
-        if (const Attribute* name = ref.attribute("name"); name && !is_one_of(copy.tag, {"emitter"}))
+        if (const Attribute* name = ref.attribute("name"); name && copy.tag != "emitter")
             copy.attributes.push_back(*name);
         open_.insert(id);
         place(copy);
@@ -94,7 +91,7 @@ private:
         ref = std::move(copy);
     }
 
-    std::map<std::string, Element> by_id_; // copies: the tree changes
+    std::map<std::string, std::optional<Element>> by_id_; // copies, for the tree changes; nothing: a shape
     std::set<std::string> copied_, open_;
     std::size_t left_;
     Diagnostics& diagnostics_;

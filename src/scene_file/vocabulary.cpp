@@ -39,14 +39,11 @@ bool is_our_type(std::string_view kind, std::string_view name)
                        [&](const TypeInfo& type) { return type.kind == kind && type.name == name; });
 }
 
-bool is_our_parameter(std::string_view kind, std::string_view type, std::string_view name)
+std::vector<std::string_view> our_parameters(std::string_view kind, std::string_view type)
 {
-    for (const TypeInfo& info : known_types()) {
-        if (info.kind != kind || info.name != type) continue;
-        const std::vector<std::string_view> names = parameters_in(info.manual);
-        if (std::find(names.begin(), names.end(), name) != names.end()) return true;
-    }
-    return false;
+    for (const TypeInfo& info : known_types())
+        if (info.kind == kind && info.name == type) return parameters_in(info.manual);
+    return {};
 }
 
 // The type whose rows one has.
@@ -216,16 +213,16 @@ private:
         const auto* row = find_row(words_, &Vocabulary::ignored, [&](const Ignored& ignored) {
             return fits(ignored, kind, type) && ignored.name == "*";
         });
-        return row && !is_our_parameter(kind, our_type(words_, kind, type), name);
+        if (!row) return false;
+        const std::vector<std::string_view> ours = our_parameters(kind, our_type(words_, kind, type));
+        return std::find(ours.begin(), ours.end(), name) == ours.end();
     }
 
     // The file's names of what the type has; rows for all types name more.
     std::vector<std::string_view> known_parameters(const std::string& kind, const std::string& type) const
     {
-        std::vector<std::string_view> ours, known;
-        for (const TypeInfo& info : known_types())
-            if (info.kind == kind && info.name == our_type(words_, kind, type))
-                ours = parameters_in(info.manual);
+        const std::vector<std::string_view> ours = our_parameters(kind, our_type(words_, kind, type));
+        std::vector<std::string_view> known;
         for (const Vocabulary* from = &words_; from; from = from->base)
             for (const ParamName& row : from->params)
                 if (fits(row, kind, type) && (!row.type.empty() || kind_of_tag(kind).empty() ||

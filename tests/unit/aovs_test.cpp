@@ -412,5 +412,5 @@ TEST_CASE("a rendering goes on with its own layers only", "[unit][aov]")
     const LoadedScene scene = load_text(start + wall(2.f, -1.f, red) + "</scene>");
     RenderState state = render(scene.job, Rendered::options(2, {"normal"}));
     CHECK_THROWS_WITH(Rendering(scene.job, Rendered::options(4, {"albedo"}), std::move(state)),
-                      "the samples so far have the layers normal, but albedo are asked for");
+                      "the samples so far have the layers normal, not albedo");
 }

@@ -52,7 +52,7 @@ int run(const Options& options)
     const LoadedScene& scene = task.scene;
     if (!options.quiet) log_scene(task, options.verbose);
     ImageLibrary::hash(); // is loaded, since rendering takes its memory, too
-    const MemoryNeeds memory = memory_needs(scene, options.settings.view.aovs);
+    const MemoryNeeds memory = memory_needs(scene, task.options.aovs);
     const std::vector<Doubt> doubts = find_doubts(scene.job);
     const bool is_clean = doubts.empty() && scene.warnings.empty();
     write_json(options.json, check_json(task, doubts, memory));
@@ -64,7 +64,7 @@ int run(const Options& options)
         print_output(
             fmt::format("memory: {:.0f} MB for the scene and the program, {:.0f} MB for film and image{}\n",
                         memory.scene / megabyte, memory.image / megabyte,
-                        options.settings.view.aovs.empty() ? " without AOVs" : ""));
+                        task.options.aovs.empty() ? " without AOVs" : ""));
         if (is_clean) print_output("no mistakes found\n");
     }
     return is_clean ? exit_code::done : exit_code::differs;
