@@ -41,8 +41,10 @@ public:
     void place(Element& element)
     {
         for (Element& child : element.children) {
-            if (child.tag == "ref") place_copy(child);
-            place(child);
+            if (child.tag == "ref")
+                place_copy(child); // with what it names inside
+            else
+                place(child);
         }
     }
 
