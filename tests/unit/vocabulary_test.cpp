@@ -78,7 +78,7 @@ TEST_CASE("what the rows of a dialect name is in the catalog", "[unit][vocabular
             CAPTURE(words->name);
             for (const TypeName& row : words->types) {
                 CAPTURE(row.kind, row.theirs, row.ours);
-                if (row.kind == "film" || row.ours == "moment" || row.ours == "aov")
+                if (row.kind == "film" || row.ours == "moment" || row.ours == "aov" || row.ours == "merge")
                     continue; // order_mitsuba()
                 CHECK(has_type(row.kind, row.ours));
             }
@@ -88,7 +88,7 @@ TEST_CASE("what the rows of a dialect name is in the catalog", "[unit][vocabular
                 CHECK(has_parameter(*top, kind, type, name));
             };
             for (const ParamName& row : words->params)
-                if (row.theirs != "*") check_parameter(row.kind, row.type, row.ours);
+                if (row.theirs != "*" && !row.ours.empty()) check_parameter(row.kind, row.type, row.ours);
             for (const Preset& row : words->presets) check_parameter(row.kind, row.type, row.name);
         }
 }
