@@ -40,7 +40,7 @@ DOORS = {
     "Embree": (r"embree[34]?/", ["src/scene/accel*"]),
     "OpenImageIO": (r"OpenImageIO/", ["src/image/oiio/*"]),
     "OpenEXR": (r"OpenEXR/|Imf|Iex|IlmThread", ["src/image/oiio/*.cpp"]),
-    "tinyobjloader": (r"tiny_?obj", ["src/shapes/obj/*.cpp"]),
+    "tinyobjloader": (r"tiny_?obj", ["src/shapes/obj/mtl.cpp"]),
     "pugixml": (r"pugi", ["src/scene_file/document*.cpp"]),
     "oneTBB": (r"(oneapi/)?tbb(/|\.h)", ["src/render/render*.cpp", "src/base/parallel*.cpp"]),
     "OpenSSL": (r"openssl/", ["src/base/sha256.cpp"]),

@@ -80,8 +80,8 @@ private:
     {
         const Vec3d h = Vec3d(wi) + Vec3d(wo);
         const double z2 = h.z * h.z, length2 = length_squared(h);
-        // Nearer to the mirror direction at grazing angles 1 / h_z^2 is no number of 32 bits.
-        if (!(h.z > 1e-9)) return {};
+        // Lower, both directions graze so that their densities are beyond any float.
+        if (!(h.z > 1e-12)) return {};
         const double gauss =
             exp(-(sqr(h.x / alpha_u) + sqr(h.y / alpha_v)) / z2) / (pi_d * alpha_u * alpha_v);
         // [3], equation 17.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cli/outputs.h"
 
+#include "base/regular_file.h"
 #include "base/text_file.h"
 #include "cli/console.h"
 #include "cli/usage_error.h"
@@ -10,6 +11,7 @@
 
 #include <filesystem>
 #include <fmt/format.h>
+#include <fstream>
 
 namespace plumb {
 
@@ -50,6 +52,24 @@ std::vector<std::string> with_json(std::vector<std::string> images, const std::s
 {
     if (is_file(json)) images.push_back(json);
     return images;
+}
+
+std::string json_destination_of_errors(const std::vector<std::string>& words)
+{
+    constexpr std::string_view option = "--json";
+    std::string found;
+    for (std::size_t i = 0; found.empty() && i < words.size(); ++i) {
+        if (words[i].starts_with(std::string(option) + "=")) found = words[i].substr(option.size() + 1);
+        if (words[i] == option && i + 1 < words.size() && !words[i + 1].starts_with("--"))
+            found = words[i + 1];
+    }
+    std::error_code ignored;
+    if (!is_file(found) || !std::filesystem::exists(found, ignored)) return found;
+    if (!problem_of_file(found).empty()) return {};
+    constexpr std::string_view ours = "{\n  \"schema\": ";
+    std::string start(ours.size(), '\0');
+    std::ifstream(found).read(start.data(), static_cast<std::streamsize>(start.size()));
+    return start == ours ? found : "";
 }
 
 void write_json(const std::string& json, std::string_view text)

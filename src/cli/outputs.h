@@ -22,6 +22,10 @@ void check_outputs(const std::vector<std::string>& images, const std::string& js
 // The images, and the report if it is a file.
 std::vector<std::string> with_json(std::vector<std::string> images, const std::string& json);
 
+// What follows --json, or stands behind --json=; empty: nothing does. For commands that failed: also a file that is there
+// and is no JSON of ours is nothing, for it may be what the command refused to replace.
+std::string json_destination_of_errors(const std::vector<std::string>& words);
+
 // Where --json says, if anywhere.
 void write_json(const std::string& json, std::string_view text);
 

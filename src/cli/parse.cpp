@@ -93,8 +93,11 @@ ParsedWords parse_words(const VerbHelp& verb, std::span<const OptionHelp> option
     CLI::Option* subject = app.add_option("WORD")->allow_extra_args(false);
     std::vector<CLI::Option*> added;
     for (const OptionHelp& option : options) {
-        added.push_back(option.takes_value() ? app.add_option(option.names)->allow_extra_args(false)
-                                             : app.add_flag(option.names)->disable_flag_override());
+        if (option.value_is_optional)
+            added.push_back(app.add_flag(option.names));
+        else
+            added.push_back(option.takes_value() ? app.add_option(option.names)->allow_extra_args(false)
+                                                 : app.add_flag(option.names)->disable_flag_override());
         added.back()->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
         // CLI11 would take the next word for the value of "--spp=".
         const std::string empty = fmt::format("{}=", option.long_name());

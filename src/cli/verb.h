@@ -27,6 +27,7 @@ struct OptionHelp {
     std::string help;
     bool repeatable = false;
     bool required = false;
+    bool value_is_optional = false; // given as --name or --name=VALUE; without one it is "true"
 
     std::string_view long_name() const;
     bool takes_value() const { return !value.empty(); }

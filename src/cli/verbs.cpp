@@ -81,7 +81,9 @@ std::string help_text(const Verb& asked)
         std::string names = option.names;
         names = names.starts_with("--") ? "    " + names : names.replace(2, 1, ", ");
         std::string_view help = option.help;
-        text += fmt::format("  {:<24} {}\n", names + " " + option.value, help.substr(0, help.find('\n')));
+        const std::string value =
+            option.value_is_optional ? fmt::format("[={}]", option.value) : " " + option.value;
+        text += fmt::format("  {:<24} {}\n", names + value, help.substr(0, help.find('\n')));
         while (help.find('\n') != std::string_view::npos) {
             help.remove_prefix(help.find('\n') + 1);
             text += fmt::format("  {:<24} {}\n", "", help.substr(0, help.find('\n')));

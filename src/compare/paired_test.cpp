@@ -57,7 +57,8 @@ public:
           options_(options),
           counted_(a.pixels(), 0),
           differs_(a.pixels(), 0),
-          covered_(a.pixels(), 0)
+          covered_(a.pixels(), 0),
+          rejected_by_(a.pixels(), 0)
     {
         for (std::size_t i = 0; i < counted_.size(); ++i) counted_[i] = a.is_finite(i) && b.is_finite(i);
         const Correlation correlation =
@@ -112,6 +113,10 @@ public:
             if (remains) count_pixels(result, true);
         }
         result.difference_noise = noise_;
+        result.rejected_by = rejected_by_;
+        if (result.differing == result.pixels) // the sum over all squares is rejected
+            for (std::uint16_t& size : result.rejected_by)
+                if (size == 0) size = Significance::whole_image;
         return result;
     }
 
@@ -346,7 +351,10 @@ private:
                     covered_[i] = 1;
                     ++result.smallest_pixels;
                 }
-                if (rejected[square]) differs_[i] = 1;
+                if (!rejected[square]) continue;
+                differs_[i] = 1;
+                rejected_by_[i] =
+                    squares.size == 0 ? Significance::whole_image : static_cast<std::uint16_t>(squares.size);
             }
         }
     }
@@ -437,9 +445,10 @@ private:
     const ComparedImage& a_;
     const ComparedImage& b_;
     const CompareSettings& options_;
-    std::vector<char> counted_; // finite in both
-    std::vector<char> differs_; // in a square that was rejected
-    std::vector<char> covered_; // in a square that was tested
+    std::vector<char> counted_;              // finite in both
+    std::vector<char> differs_;              // in a square that was rejected
+    std::vector<char> covered_;              // in a square that was tested
+    std::vector<std::uint16_t> rejected_by_; // Significance::rejected_by
     DifferenceNoise noise_;
     std::vector<int> sizes_;
     std::vector<std::vector<double>>

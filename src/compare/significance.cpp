@@ -28,7 +28,12 @@ enum class State : std::uint8_t { usable, unusable, differs };
 class Tester {
 public:
     Tester(const ComparedImage& a, const ComparedImage& b, const CompareSettings& options)
-        : a_(a), b_(b), options_(options), states_(a.pixels(), State::usable), covered_(a.pixels(), false)
+        : a_(a),
+          b_(b),
+          options_(options),
+          states_(a.pixels(), State::usable),
+          covered_(a.pixels(), false),
+          rejected_by_(a.pixels(), 0)
     {
         sampling_ = {a.samples_per_pixel, b.samples_per_pixel, a.is_exact, b.is_exact,
                      options.rounding,    a.inflation,         b.inflation};
@@ -62,6 +67,7 @@ public:
         result.pixels = states_.size();
         for (const ScaleTest& scale : result.scales)
             if (scale.largest) result.p = std::min(result.p, scale.largest->p);
+        result.rejected_by = rejected_by_;
         for (std::size_t i = 0; i < states_.size(); ++i) {
             if (!a_.is_finite(i) && !b_.is_finite(i)) continue;
             if (states_[i] == State::differs || a_.is_finite(i) != b_.is_finite(i))
@@ -187,7 +193,9 @@ private:
                     covered_[i] = true;
                     ++result.smallest_pixels;
                 }
-                if (unit.is_rejected) states_[i] = State::differs;
+                if (!unit.is_rejected) continue;
+                states_[i] = State::differs;
+                rejected_by_[i] = size == 0 ? Significance::whole_image : static_cast<std::uint16_t>(size);
             }
         }
         return result;
@@ -230,6 +238,7 @@ private:
     Sampling sampling_;
     std::vector<State> states_;
     std::vector<bool> covered_;                              // in a square that was tested
+    std::vector<std::uint16_t> rejected_by_;                 // Significance::rejected_by
     std::vector<std::vector<std::vector<UnitSums>>> around_; // of each size of surroundings, in each channel
 };
 

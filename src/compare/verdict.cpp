@@ -46,6 +46,8 @@ void find_shift(const ComparedImage& a, const ComparedImage& b, const CompareSet
     result.reason.clear();
     result.differing = result.pixels;
     result.untested = 0;
+    for (std::uint16_t& size : result.rejected_by)
+        if (size == 0) size = Significance::whole_image;
 }
 
 } // namespace

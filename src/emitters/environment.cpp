@@ -33,6 +33,8 @@ namespace plumb {
 ///                                seam at -z, as Mitsuba does   (default 0)
 ///     rowsAtPoles    boolean     row theta / pi (height - 1): the first and the last row are the poles, as Mitsuba has
 ///                                it   (default false)
+///     zUp            boolean     +z stands for +y and y for z in all of the above, before toWorld: phi = atan2(y, x) and
+///                                theta = acos(z), as in most forks of Nori   (default false)
 ///     imageScale   float     multiplies the image alone; the dialect zaragoza and --envmap-scale set it   (default 1)
 ///     flipped      boolean   see above; the dialect zaragoza sets it   (default false)
 ///
@@ -53,6 +55,7 @@ public:
         const double offset = p.number("columnOffset", 0.f);
         column_offset_ = offset - std::floor(offset);
         to_world_ = p.transform("toWorld");
+        if (p.boolean("zUp", false)) to_world_ = to_world_ * y_and_z_exchanged();
         is_turned_ = !to_world_.is_identity();
         to_image_ = to_world_.inverse();
         if (!to_world_.uniform_scale())
@@ -108,6 +111,11 @@ public:
 
 private:
     static constexpr double two_pi_ = 2.0 * pi_d;
+
+    static Transform y_and_z_exchanged()
+    {
+        return *Transform::from_rows({{{1, 0, 0, 0}, {0, 0, 1, 0}, {0, 1, 0, 0}, {0, 0, 0, 1}}});
+    }
 
     // Directions in units of cells: x from 0 to width with phi, y from 0 to height with theta.
     Vec2f cell_coordinates(const Vec3f& wi) const

@@ -21,6 +21,7 @@ namespace plumb {
 ///     scale           float       multiplies irradiance, at least 0                            (default 1)
 ///     position        point       where it stands                                              (default 0 0 0)
 ///     direction       vector      where it points, any length but 0                            (default 0 0 1)
+///     target          point       instead of direction: what it points at
 ///     toWorld         transform   applied last                                                 (default: the identity)
 ///     fov             float       field of view in degrees, in (0, 180)                        (default 30)
 ///     fovAxis         string      that of fov: x, y, diagonal, smaller or larger               (default x)

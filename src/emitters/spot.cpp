@@ -9,15 +9,24 @@
 namespace plumb {
 
 /// A light at a point that shines into a cone: the same in all directions up to the half-angle `beamWidth` from its axis, and
-/// from there less, linearly in the angle, until nothing is left at `cutoffAngle`.
+/// from there less, until nothing is left at `cutoffAngle`.
+///
+/// The fall-off is linear in the angle a, or "quartic": ((cos(a) - cos(cutoffAngle)) / (cos(beamWidth) -
+/// cos(cutoffAngle)))^4 (Pharr, Jakob and Humphreys 2016, "Physically Based Rendering", 3rd ed., section 12.3.1).
+///
+/// `power` P means the intensity P / (2 pi (1 - (cos(cutoffAngle) + cos(beamWidth)) / 2)), as in that book: P is about the
+/// power that the light emits.
 ///
 /// A texture colours the cone: with (x, y, z) as in the light's own space, where it points along +z, +y is up and +x left,
 /// u = (1 + x / (z tan(cutoffAngle))) / 2 and v the same of y.
 ///
 ///     position      point       where it stands                                             (default 0 0 0)
 ///     direction     vector      where it points, any length but 0                           (default 0 0 1)
+///     target        point       instead of direction: what it points at
 ///     toWorld       transform   applied last                                                (default: the identity)
 ///     intensity     color       in W / sr inside the beam                                   (default 1)
+///     power         color       instead of intensity: P, in W
+///     falloff       string      between the two angles: linear or quartic                   (default linear)
 ///     cutoffAngle   float       half-angle of the cone in degrees, in (0, 180)              (default 20)
 ///     beamWidth     float       half-angle of the beam in degrees, at most cutoffAngle      (default 3/4 of cutoffAngle)
 ///     texture       color or texture   multiplies the intensity; cutoffAngle below 90 then  (default 1)
@@ -34,6 +43,7 @@ public:
         : to_world_(read_aim(params)),
           to_local_(to_world_.inverse()),
           intensity_(params.color("intensity", Color(1.f))),
+          is_quartic_(params.choice("falloff", "linear", {"linear", "quartic"}) == "quartic"),
           texture_(params.color_texture("texture", Color(1.f)))
     {
         const double cutoff = params.number("cutoffAngle", 20.f, Range::open(0.0, 180.0));
@@ -47,6 +57,13 @@ public:
         beam_ = beam * (pi_d / 180.0);
         const SinCosD angle = sin_cos(cutoff_);
         tangent_ = angle.sin / angle.cos;
+        cos_cutoff_ = angle.cos;
+        cos_beam_ = sin_cos(beam_).cos;
+        if (params.has("power")) {
+            if (params.has("intensity")) params.fail("power", "cannot be given together with intensity");
+            intensity_ = params.color("power", Color(1.f)) *
+                         static_cast<float>(1.0 / (2.0 * pi_d * (1.0 - 0.5 * (cos_cutoff_ + cos_beam_))));
+        }
         position_ = to_world_.point(Vec3d(0.0));
         axis_ = normalize(to_world_.vector(Vec3d(0.0, 0.0, 1.0)));
     }
@@ -71,8 +88,9 @@ public:
     float power() const override
     {
         const double edge = cutoff_ - beam_;
-        const double integral =
-            edge > 1e-6 ? 1.0 - (sin_cos(cutoff_).sin - sin_cos(beam_).sin) / edge : 1.0 - sin_cos(beam_).cos;
+        const double integral = is_quartic_   ? 1.0 - cos_beam_ + 0.2 * (cos_beam_ - cos_cutoff_)
+                                : edge > 1e-6 ? 1.0 - (sin_cos(cutoff_).sin - sin_cos(beam_).sin) / edge
+                                              : 1.0 - cos_beam_;
         return static_cast<float>(2.0 * pi_d * integral) * luminance(intensity_ * texture_->mean());
     }
 
@@ -91,21 +109,31 @@ private:
     {
         const double angle = atan2(std::sqrt(sqr(d.x) + sqr(d.y)), d.z);
         if (angle >= cutoff_) return Color(0.f);
-        const double part = angle <= beam_ ? 1.0 : (cutoff_ - angle) / (cutoff_ - beam_);
+        const double part = angle <= beam_ ? 1.0 : fall_off(angle);
         if (!is_textured_) return intensity_ * static_cast<float>(part);
         const Vec2f uv(static_cast<float>(0.5 + 0.5 * d.x / (d.z * tangent_)),
                        static_cast<float>(0.5 + 0.5 * d.y / (d.z * tangent_)));
         return intensity_ * texture_->color(uv) * static_cast<float>(part);
     }
 
+    // Of an angle between the beam's and the cut-off.
+    double fall_off(double angle) const
+    {
+        if (!is_quartic_) return (cutoff_ - angle) / (cutoff_ - beam_);
+        return sqr(sqr((sin_cos(angle).cos - cos_cutoff_) / (cos_beam_ - cos_cutoff_)));
+    }
+
     Transform to_world_;
     Transform to_local_;
     Color intensity_; // W / sr
+    bool is_quartic_;
     std::shared_ptr<const ColorTexture> texture_;
     bool is_textured_ = false;
     double cutoff_ = 0.0; // radians
     double beam_ = 0.0;
     double tangent_ = 0.0; // of cutoff_
+    double cos_cutoff_ = 0.0;
+    double cos_beam_ = 0.0;
     Vec3d position_;
     Vec3d axis_;
 };

@@ -2,6 +2,7 @@
 #include "plumb/experiments/suite_run.h"
 
 #include "base/shell_words.h"
+#include "experiments/foreign_command.h"
 #include "settings/options_text.h"
 
 #include <algorithm>
@@ -40,11 +41,18 @@ SuiteJob make_job(SuiteEntry entry, Diagnostics& diagnostics)
         }
         const auto& row = *find_setting<RenderSettings>(name);
         set(job.image, row, name, attribute, diagnostics);
-        if (!entry.reference_settings.contains(name)) set(job.reference, row, name, attribute, diagnostics);
+        // A target error without a number of samples takes as many as it needs.
+        const bool is_replaced = name == "spp" && entry.reference_settings.contains("target-error");
+        if (!is_replaced && !entry.reference_settings.contains(name))
+            set(job.reference, row, name, attribute, diagnostics);
     }
     for (const auto& [name, attribute] : entry.reference_settings)
         set(job.reference, *find_setting<RenderSettings>(name), "reference-" + name, attribute, diagnostics);
     job.entry = std::move(entry);
+    if (job.entry.foreign) {
+        check_foreign(job, diagnostics);
+        job.compare.samples = job.image.samples.per_pixel;
+    }
     return job;
 }
 

@@ -7,7 +7,9 @@ namespace {
 
 constexpr int largest_depth = 1'000'000'000;
 
-// However bright, a path ends some day.
+// However bright, a path ends some day; but not early: the survivors of a chain that loses nothing, inside glass say,
+// would weigh 1 / 0.95 more with each bounce.
+constexpr int uncapped_bounces = 128;
 constexpr float largest_survival = 0.95f;
 
 } // namespace
@@ -53,7 +55,8 @@ Color PathEstimator::direct(Tracer& tracer, Sampler& sampler, const Vertex& vert
 float PathEstimator::survival(const PathState& path, int bounces) const
 {
     if (bounces <= limits_.roulette_depth) return 1.f;
-    return std::min(max_component(path.throughput) * path.eta_scale, largest_survival);
+    return std::min(max_component(path.throughput) * path.eta_scale,
+                    bounces <= uncapped_bounces ? 1.f : largest_survival);
 }
 
 } // namespace plumb

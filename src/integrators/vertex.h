@@ -39,8 +39,9 @@ public:
     // A surface without smooth transmission is black, from where it is seen, for light samples from behind its shading normal.
     LightReceiver receiver() const
     {
-        if (lobes_.has_any(Lobe::glossy_transmission)) return {at_.position};
-        return {at_.position, wi_.z < 0.f ? -at_.shading.n : at_.shading.n};
+        const bool is_glossy = lobes_.has_any(glossy_lobes);
+        if (lobes_.has_any(Lobe::glossy_transmission)) return {at_.position, Vec3f(0.f), is_glossy};
+        return {at_.position, wi_.z < 0.f ? -at_.shading.n : at_.shading.n, is_glossy};
     }
 
     // Whether a sample goes on where the path came from, to rounding.

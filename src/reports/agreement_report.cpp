@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "plumb/reports/agreement_report.h"
 
-#include "base/json.h"
 #include "base/visible_text.h"
 #include "plumb/reports/comparison_report.h"
+#include "reports/json_document.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -133,7 +133,7 @@ std::string agreement_text(const std::string& scene, const Agreement& agreement)
 std::string agreement_json(const std::string& scene, const Agreement& agreement, const CompareSettings& how)
 {
     JsonWriter json;
-    json.begin_object();
+    begin_document(json, "agree");
     write_verdict(json, scene, agreement, how);
     json.begin_array("estimates");
     for (std::size_t i = 0; i < agreement.estimates.size(); ++i) {
@@ -159,7 +159,7 @@ std::string race_text(const std::string& scene, const RaceResult& race)
 std::string race_json(const std::string& scene, const RaceResult& race, const CompareSettings& how)
 {
     JsonWriter json;
-    json.begin_object();
+    begin_document(json, "race");
     write_verdict(json, scene, race.means, how);
     json.integer("rounds", race.rounds);
     json.integer("spp", race.samples_per_pixel);

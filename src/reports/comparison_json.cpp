@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "reports/comparison_json.h"
 
+#include "reports/json_document.h"
+
 #include <algorithm>
 
 namespace plumb {
@@ -218,7 +220,7 @@ std::string comparison_json(const Comparison& comparison, const CompareSettings&
                             const std::vector<std::string>& a, const std::vector<std::string>& b)
 {
     JsonWriter json;
-    json.begin_object();
+    begin_document(json, "compare");
     // One name, or those of the replicas.
     const auto write_names = [&json](std::string_view key, const std::vector<std::string>& names) {
         if (names.size() == 1) return json.text(key, names.front());

@@ -2,11 +2,11 @@
 #include "plumb/reports/render_report.h"
 #include "plumb/scene/scene.h"
 
-#include "base/json.h"
 #include "base/memory.h"
 #include "base/shell_words.h"
 #include "base/text.h"
 #include "render/sample_text.h"
+#include "reports/json_document.h"
 #include "settings/options_text.h"
 
 #include <ctime>
@@ -238,8 +238,7 @@ void note_machine(Report& report)
 std::string report_json(const Report& report)
 {
     JsonWriter json;
-    json.begin_object();
-    json.text("software", "Plumb " PLUMB_VERSION);
+    begin_document(json, "render");
     json.text("scene", report.scene);
     json.text("input_hash", report.input_hash);
     write_dialect(json, report.dialect);

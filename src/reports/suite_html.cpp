@@ -3,6 +3,7 @@
 // report.html: the results as JSON and the images as base64, inside the page of report.html.
 
 #include "reports/image_data.h"
+#include "reports/json_document.h"
 #include "reports/report_page.h"
 #include "reports/suite_json.h"
 
@@ -53,12 +54,17 @@ std::string html_text(std::string_view text)
 
 class PageWriter {
 public:
-    PageWriter(const SuiteRun& run, const ShownImages& images) : run_(run), shown_(images) {}
+    PageWriter(const SuiteRun& run, const ShownImages& images, const std::vector<std::string>& history)
+        : run_(run), shown_(images), history_(history)
+    {}
 
     std::string write()
     {
-        json_.begin_object();
+        begin_document(json_, "batch");
         write_summary(json_, run_);
+        json_.begin_array("history"); // lines of JSON, which the page reads one by one: a file may be damaged
+        for (const std::string& line : history_) json_.text({}, line);
+        json_.end_array();
         json_.begin_array("images");
         for (const SuiteResult& result : run_.results) {
             json_.begin_object();
@@ -94,6 +100,7 @@ private:
         add("image", shown->image);
         if (!shown->reference.empty()) add("reference", shown->reference);
         if (!result.difference.empty()) add("difference", read_bytes(result.difference));
+        if (!result.significant.empty()) add("significant", read_bytes(result.significant));
         json_.end_object();
     }
 
@@ -107,6 +114,7 @@ private:
 
     const SuiteRun& run_;
     const ShownImages& shown_;
+    const std::vector<std::string>& history_;
     JsonWriter json_;
     std::string images_;
     int number_ = 0;
@@ -137,9 +145,10 @@ const ShownImages::Shown* ShownImages::find(const std::string& title) const
     return found == shown_.end() ? nullptr : &found->second;
 }
 
-std::string suite_html(const SuiteRun& run, const ShownImages& images)
+std::string suite_html(const SuiteRun& run, const ShownImages& images,
+                       const std::vector<std::string>& history)
 {
-    return PageWriter(run, images).write();
+    return PageWriter(run, images, history).write();
 }
 
 } // namespace plumb

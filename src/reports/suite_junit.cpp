@@ -46,7 +46,10 @@ std::string xml_text(std::string_view text)
 std::string details(const SuiteResult& result)
 {
     std::string text = result.problem.empty() ? reason_text(result) : result.problem;
-    text += "\n" + result.command;
+    if (!result.command.empty()) text += "\n" + result.command;
+    if (!result.compare_command.empty()) text += "\n" + result.compare_command;
+    if (!result.stale.empty()) text += "\n" + stale_text(result);
+    if (!result.accept_command.empty()) text += "\nto accept it: " + result.accept_command;
     if (result.comparison) text += fmt::format("\nrmse {:.6g}", result.comparison->metrics.rmse);
     if (result.noise) text += fmt::format("\nnoise {:.6g}", *result.noise);
     return text;

@@ -45,17 +45,22 @@ std::string suite_markdown(const SuiteRun& run)
         fmt::format("## {}\n\n{} in {}.\n\n", cell(run.suite), summary_text(run), duration_text(run.seconds));
     text += "| image | verdict | rmse | noise | seconds | why |\n"
             "|---|---|--:|--:|--:|---|\n";
-    for (const SuiteResult& result : run.results) {
+    for (const SuiteResult* one : failures_first(run)) {
+        const SuiteResult& result = *one;
         std::optional<double> rmse;
         if (result.comparison) rmse = result.comparison->metrics.rmse;
         const bool failed = result.is_failure();
-        text += fmt::format("| {} | {} | {} | {} | {} | {} |\n", cell(result.title),
-                            failed ? fmt::format("**{}**", result_word(result))
-                                   : std::string(result_word(result)),
-                            number(rmse), number(result.noise),
-                            result.up_to_date ? "up to date" : fmt::format("{:.1f}", result.seconds),
-                            cell(reason_text(result)));
+        text += fmt::format(
+            "| {} | {} | {} | {} | {} | {} |\n", cell(result.title),
+            failed ? fmt::format("**{}**", result_word(result)) : std::string(result_word(result)),
+            number(rmse), number(result.noise),
+            result.up_to_date ? "up to date" : fmt::format("{:.1f}", result.seconds),
+            cell(reason_text(result) + (result.stale.empty() ? "" : "\n" + stale_text(result))));
     }
+    for (const SuiteResult* result : failures_first(run))
+        if (!result->accept_command.empty() && result->state != JobState::made)
+            text += fmt::format("\nTo accept {}:\n\n    {}\n", cell(result->title),
+                                visible_text(result->accept_command));
     return text;
 }
 

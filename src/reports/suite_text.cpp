@@ -7,8 +7,10 @@
 #include "base/text_file.h"
 #include "base/visible_text.h"
 #include "reports/exit_codes.h"
+#include "reports/suite_history.h"
 
 #include <algorithm>
+#include <ctime>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -68,8 +70,17 @@ std::string reason_text(const SuiteResult& result)
                                       p_text(noise.p),
                                       100.0 * static_cast<double>(noise.differing) /
                                           static_cast<double>(std::max<std::uint64_t>(noise.pixels, 1))));
+    // Of a reference that is rendered again, the pixels decide.
+    if (result.verdict == Verdict::differs && reasons.empty() && !result.stale.empty())
+        reasons.push_back(result.stale.back());
     if (result.verdict == Verdict::undecided && !noise.reason.empty()) reasons.push_back(noise.reason);
     return list_text(reasons);
+}
+
+std::string stale_text(const SuiteResult& result)
+{
+    if (result.stale.empty()) return {};
+    return fmt::format("the reference is stale: {}", list_text(result.stale));
 }
 
 std::string summary_text(const SuiteRun& run)
@@ -82,10 +93,28 @@ std::string summary_text(const SuiteRun& run)
         if (count > 0) parts.push_back(fmt::format("{} {}", count, count == 1 ? word.one : word.more));
     }
     std::string text = fmt::format("{}", fmt::join(parts, ", "));
+    const auto stale = std::count_if(run.results.begin(), run.results.end(),
+                                     [](const SuiteResult& result) { return !result.stale.empty(); });
+    if (stale > 0) text += fmt::format("; {} stale", stale);
     const auto up_to_date = std::count_if(run.results.begin(), run.results.end(),
                                           [](const SuiteResult& result) { return result.up_to_date; });
     if (up_to_date > 0) text += fmt::format("; {} up to date", up_to_date);
     return text;
+}
+
+std::vector<const SuiteResult*> failures_first(const SuiteRun& run)
+{
+    const auto rank = [](const SuiteResult* result) {
+        if (result->state == JobState::failed) return 0;
+        if (result->verdict == Verdict::differs) return 1;
+        if (result->verdict == Verdict::undecided) return 2;
+        return 3;
+    };
+    std::vector<const SuiteResult*> order;
+    for (const SuiteResult& result : run.results) order.push_back(&result);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](const SuiteResult* a, const SuiteResult* b) { return rank(a) < rank(b); });
+    return order;
 }
 
 std::string result_line(const SuiteResult& result, std::size_t title_width)
@@ -103,7 +132,23 @@ std::string result_line(const SuiteResult& result, std::size_t title_width)
     line.erase(line.find_last_not_of(' ') + 1);
     if (result.state == JobState::failed) return line + "\n" + result.problem + "\n";
     const std::string reason = result.state == JobState::not_run ? "" : reason_text(result);
-    return line + "\n" + (reason.empty() ? "" : "    " + reason + "\n");
+    line += "\n" + (reason.empty() ? "" : "    " + reason + "\n");
+    if (const std::string stale = stale_text(result); !stale.empty())
+        line += "    " + visible_text(stale) + "\n";
+    if (result.state == JobState::made && !result.replaced.empty())
+        line += fmt::format("    the old one is '{}'{}\n", visible_text(result.replaced),
+                            result.comparison
+                                ? fmt::format("; the new one {} it: p {}",
+                                              result.comparison->verdict == Verdict::passes ? "agrees with"
+                                              : result.comparison->verdict == Verdict::differs
+                                                  ? "differs from"
+                                                  : "cannot be told from",
+                                              p_text(result.comparison->significance.p))
+                                : "");
+    if (!result.accept_command.empty())
+        line += fmt::format("    to {}: {}\n", result.state == JobState::made ? "restore it" : "accept it",
+                            visible_text(result.accept_command));
+    return line;
 }
 
 void write_suite_reports(const SuiteRun& run, const ShownImages& images,
@@ -112,13 +157,16 @@ void write_suite_reports(const SuiteRun& run, const ShownImages& images,
     write_text_file(directory / "report.json", suite_json(run));
     write_text_file(directory / "junit.xml", suite_junit(run));
     write_text_file(directory / "summary.md", suite_markdown(run));
-    write_text_file(directory / "report.html", suite_html(run, images));
+    const std::vector<std::string> history = with_run(read_history(directory / "history.json"), run,
+                                                      static_cast<std::uint64_t>(std::time(nullptr)));
+    write_text_file(directory / "history.json", history_json(history));
+    write_text_file(directory / "report.html", suite_html(run, images, history));
 }
 
 void check_suite_reports(const std::filesystem::path& directory)
 {
     make_directory(directory);
-    for (const char* report : {"report.json", "junit.xml", "summary.md", "report.html"})
+    for (const char* report : {"report.json", "junit.xml", "summary.md", "report.html", "history.json"})
         check_text_path(directory / report);
 }
 

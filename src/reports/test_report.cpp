@@ -2,9 +2,9 @@
 #include "plumb/reports/test_report.h"
 #include "plumb/reports/comparison_report.h"
 
-#include "base/json.h"
 #include "base/text.h"
 #include "base/visible_text.h"
+#include "reports/json_document.h"
 
 #include <algorithm>
 #include <cmath>
@@ -93,8 +93,7 @@ std::string result_text(const TestResult& result, TestType type)
 std::string test_json(const std::vector<TestReport>& reports, std::uint64_t seed)
 {
     JsonWriter json;
-    json.begin_object();
-    json.text("software", "Plumb " PLUMB_VERSION);
+    begin_document(json, "test");
     json.integer("seed", seed);
     json.begin_array("files");
     for (const TestReport& report : reports) write_file(json, report);

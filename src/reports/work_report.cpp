@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "plumb/reports/work_report.h"
 
-#include "base/json.h"
+#include "reports/json_document.h"
 
 namespace plumb {
 
@@ -10,7 +10,7 @@ std::string work_json(const Work& work, const std::vector<std::string>& outputs,
 {
     const SampleSet missing = work.missing();
     JsonWriter json;
-    json.begin_object();
+    begin_document(json, "merge");
     json.begin_array("parts");
     for (const WorkPart& part : work.parts) {
         json.begin_object();

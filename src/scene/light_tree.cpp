@@ -103,6 +103,25 @@ LightTree::Shares LightTree::shares(std::uint32_t index, const Receiver& receive
     return shares;
 }
 
+std::optional<LightTree::Choice> LightTree::choose_at_glossy(const LightReceiver& receiver, double u) const
+{
+    std::optional<Choice> choice;
+    if (u < uniform_share_)
+        choice = uniform_.sample(std::min(u / uniform_share_, largest_below_one));
+    else
+        choice = choose_among_several(receiver, (u - uniform_share_) / (1.0 - uniform_share_));
+    if (choice) choice->probability = probability_at_glossy(receiver, choice->index);
+    return choice;
+}
+
+float LightTree::probability_at_glossy(const LightReceiver& receiver, std::size_t index) const
+{
+    const double of_tree = static_cast<double>(probability_among_several(receiver, index));
+    if (!(uniform_share_ > 0.0)) return static_cast<float>(of_tree);
+    return static_cast<float>(uniform_share_ * static_cast<double>(uniform_.probability(index)) +
+                              (1.0 - uniform_share_) * of_tree);
+}
+
 std::optional<LightTree::Choice> LightTree::choose_among_several(const LightReceiver& at, double u) const
 {
     const Receiver receiver(at, scale_);

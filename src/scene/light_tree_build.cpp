@@ -63,6 +63,9 @@ double on_axis(const Vec3d& v, std::size_t axis)
     return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
 }
 
+// So many finite emitters are found by uniform choice, each often enough.
+constexpr double uniform_choices = 12.0;
+
 // The slice of [low, high] that x lies in.
 constexpr std::size_t slices = 12;
 std::size_t slice_of(double x, double low, double high)
@@ -241,6 +244,13 @@ LightTree::LightTree(std::span<const Emitter* const> emitters, Among among, cons
     const double irradiance = infinite_.sum() / (4.0 * pi_d * radius * radius);
     infinite_irradiance_ = irradiance * pi_d / largest_power / (scale * scale);
     least_infinite_ = std::min(infinite_.sum() / finite_power, 1.0);
+
+    std::vector<double> weights(emitters.size(), 0.0);
+    for (const Light& light : lights) weights[light.emitter] = 1.0 / static_cast<double>(lights.size());
+    for (std::size_t i = 0; i < infinite_emitters_.size(); ++i)
+        weights[infinite_emitters_[i]] = least_infinite_ * static_cast<double>(infinite_.probability(i));
+    uniform_ = DiscreteDistribution(weights);
+    uniform_share_ = std::min(0.75, uniform_choices / static_cast<double>(lights.size()));
 }
 
 } // namespace plumb

@@ -96,8 +96,13 @@ bool SceneBuilder::check_option(std::string_view option, std::string_view type,
 {
     std::vector<std::string_view> names;
     for (const Entry<Kind>& entry : entries) names.push_back(entry.name);
-    const std::string_view ours = our_type(nori_vocabulary(DialectName::plumb), option, type);
-    if (std::find(names.begin(), names.end(), ours) != names.end()) return true;
+    const Vocabulary& words = nori_vocabulary(DialectName::plumb);
+    if (std::find(names.begin(), names.end(), our_type(words, option, type)) != names.end()) {
+        const TypeName* row = find_type(words, option, type);
+        if (row && !row->warning.empty())
+            diagnostics_.warning({}, fmt::format("--{} {}: {}", option, type, row->warning));
+        return true;
+    }
     const auto foreign = foreign_type(option, type);
     diagnostics_.error(
         {}, fmt::format("--{} {}: {}", option, type,

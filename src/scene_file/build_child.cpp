@@ -3,6 +3,7 @@
 
 #include "base/parallel.h"
 #include "plumb/model/shape.h"
+#include "scene_file/face_bsdfs.h"
 #include "scene_file/shared_objects.h"
 
 #include <algorithm>
@@ -34,38 +35,18 @@ public:
 private:
     void build_shape()
     {
-        const Element* bsdf = nullptr;
         const Element* emitter = nullptr;
-        for (const Element& child : element_.children) {
-            if (child.tag == "bsdf" || child.tag == "ref") keep_only(bsdf, child, context_.diagnostics);
+        for (const Element& child : element_.children)
             if (child.tag == "emitter") keep_only(emitter, child, context_.diagnostics);
-        }
         SceneObject& object = built_.object;
         ObjectReader reader(element_, context_, {"bsdf", "ref", "emitter"});
         object.shape = reader.build(shape_types());
-        object.bsdf = bsdf ? build_bsdf(*bsdf, context_) : default_bsdf();
+        ShapeBsdf bsdf = build_shape_bsdf(
+            element_, object.shape ? object.shape->take_face_materials() : FaceMaterials{}, context_);
+        object.bsdf = std::move(bsdf.bsdf);
         if (emitter) object.emitter = build_area_light(*emitter, object.shape.get());
         object.name = place_name(element_);
-        object.material = material_name(bsdf);
-    }
-
-    static std::string place_name(const Element& element)
-    {
-        const SourceLocation at = element.place();
-        return fmt::format("{} '{}' ({}:{})", element.written_tag(), element.written_type(),
-                           std::filesystem::path(at.file).filename().string(), at.line);
-    }
-
-    std::string material_name(const Element* bsdf) const
-    {
-        if (!bsdf) return "bsdf 'diffuse' (default)";
-        const std::string id = bsdf->value("id"); // its own, or that of a <ref>
-        return id.empty() ? place_name(*bsdf) : id;
-    }
-
-    std::unique_ptr<Bsdf> default_bsdf()
-    {
-        return ObjectReader(synthetic_element(element_, "bsdf", "diffuse"), context_).build(bsdf_types());
+        object.material = std::move(bsdf.name);
     }
 
     // shape: null where it could not be built; then another one stands in, so that all mistakes are found.

@@ -42,7 +42,7 @@ public:
     {
         for (Element& child : element.children) {
             if (child.tag == "ref")
-                place_copy(child); // with what it names inside
+                place_copy(child); // and what is in it
             else
                 place(child);
         }

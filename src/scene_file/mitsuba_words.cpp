@@ -292,6 +292,7 @@ constexpr Preset presets[] = {
     {"shape", "sphere", "boolean", "flipU", "true"},
     {"shape", "obj", "boolean", "smooth", "true", "faceNormals"},
     {"shape", "obj", "boolean", "flipV", "true"},
+    {"shape", "obj", "boolean", "materials", "false"},
     {"shape", "ply", "boolean", "smooth", "true", "faceNormals"},
     {"shape", "serialized", "boolean", "smooth", "true", "faceNormals"},
 
@@ -321,9 +322,9 @@ constexpr Preset presets[] = {
 };
 
 constexpr Refusal refusals[] = {
-    {"medium", "", vacuum},
-    {"volume", "", vacuum},
-    {"phase", "", vacuum},
+    {"medium", "", vacuum, true},
+    {"volume", "", vacuum, true},
+    {"phase", "", vacuum, true},
     {"blackbody", "", "write <spectrum type=\"blackbody\" name=\"...\">"},
     {"srgb", "", "write it as a linear <rgb>"},
     {"shape", "sdfgrid", as_mesh},

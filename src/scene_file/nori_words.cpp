@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "scene_file/nori_words.h"
 
+#include "scene_file/fork_words.h"
+
 #include <fmt/format.h>
 
 namespace plumb {
@@ -33,18 +35,27 @@ constexpr Ignored ignored[] = {
     {"camera", "perspective_depth", "focallength"},
 };
 
-constexpr Vocabulary nori = {
-    .name = "nori", .types = types, .params = params, .presets = presets, .ignored = ignored};
+constexpr Vocabulary nori = {.name = "nori",
+                             .types = types,
+                             .params = params,
+                             .presets = presets,
+                             .ignored = ignored,
+                             .base = &fork_words};
 
+// No course's renderer reads MTL files.
+constexpr Preset course_presets[] = {
+    {"shape", "obj", "boolean", "materials", "false"},
+};
 constexpr Preset mcgill_presets[] = {
+    {"shape", "obj", "boolean", "materials", "false"},
     {"emitter", "area", "color", "radiance", "0 0 0"},
     {"emitter", "point", "color", "radiance", "0 0 0", "power"},
 };
 
 constexpr Vocabulary plumb_words = {.name = "plumb", .base = &nori};
-constexpr Vocabulary epfl = {.name = "epfl", .base = &nori};
-constexpr Vocabulary eth = {.name = "eth", .base = &nori};
-constexpr Vocabulary zaragoza = {.name = "zaragoza", .base = &nori};
+constexpr Vocabulary epfl = {.name = "epfl", .presets = course_presets, .base = &nori};
+constexpr Vocabulary eth = {.name = "eth", .presets = course_presets, .base = &nori};
+constexpr Vocabulary zaragoza = {.name = "zaragoza", .presets = course_presets, .base = &nori};
 constexpr Vocabulary mcgill = {.name = "mcgill", .presets = mcgill_presets, .base = &nori};
 
 constexpr std::string_view mirrored_cameras[] = {"perspective", "thinlens", "perspective_dof",

@@ -47,8 +47,13 @@ ObjectReader::ObjectReader(const Element& element, LoadContext& context,
     if (context.vocabulary)
         params_.set_wording(
             {element.written_tag(), element.written_type(),
-             [words = context.vocabulary, kind = kind_of(element), type = element.written_type()](
-                 std::string_view name) { return written_parameter(*words, kind, type, name); }});
+             [words = context.vocabulary, kind = kind_of(element), type = element.written_type(),
+              this](std::string_view name) -> std::string_view {
+                 for (const Element& child : element_.children)
+                     if (child.written && !child.written->name.empty() && child.value("name") == name)
+                         return child.written->name;
+                 return written_parameter(*words, kind, type, name);
+             }});
     if (element.tag == "test")
         check_attributes(element, {"type"}, {"dialect", "name", "id"}, context.diagnostics);
     else

@@ -3,10 +3,12 @@
 
 #include "plumb/scene_file/scene_file.h"
 #include "scene_file/catalog.h"
+#include "scene_file/folded_name.h"
 #include "scene_file/placement.h"
 #include "scene_file/property_values.h"
 
 #include <algorithm>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -28,6 +30,30 @@ const Row* find_row(const Vocabulary& words, std::span<const Row> Vocabulary::*t
         for (const Row& row : from->*table)
             if (is_it(row)) return &row;
     return nullptr;
+}
+
+bool is_our_type(std::string_view kind, std::string_view name)
+{
+    const auto& types = known_types();
+    return std::any_of(types.begin(), types.end(),
+                       [&](const TypeInfo& type) { return type.kind == kind && type.name == name; });
+}
+
+bool is_our_parameter(std::string_view kind, std::string_view type, std::string_view name)
+{
+    for (const TypeInfo& info : known_types()) {
+        if (info.kind != kind || info.name != type) continue;
+        const std::vector<std::string_view> names = parameters_in(info.manual);
+        if (std::find(names.begin(), names.end(), name) != names.end()) return true;
+    }
+    return false;
+}
+
+// The type whose rows one has.
+std::string_view type_in_tables(const Vocabulary& words, std::string_view kind, std::string_view theirs)
+{
+    const TypeName* row = find_type(words, kind, theirs);
+    return !row ? theirs : row->like.empty() ? row->theirs : row->like;
 }
 
 std::string kind_in_tables(const Element& element)
@@ -58,8 +84,9 @@ public:
     // Recursion ends: parse_document(). false: left out.
     bool object(Element& element)
     {
-        const std::string kind = kind_in_tables(element), type = element.value("type");
-        const Outcome outcome = rename_type(element, kind, type);
+        const std::string kind = kind_in_tables(element), written = element.value("type");
+        const std::string type(type_in_tables(words_, kind, written));
+        const Outcome outcome = rename_type(element, kind, written);
         if (outcome != Outcome::fine) return outcome == Outcome::stands_in;
         std::vector<Element> kept;
         kept.reserve(element.children.size());
@@ -92,9 +119,7 @@ private:
         if (const auto* refusal = find_row(words_, &Vocabulary::refusals, [&](const Refusal& row) {
                 return row.kind == child.tag && row.type.empty();
             })) {
-            diagnostics_.add(options_.lenient ? Severity::warning : Severity::error, child.place(),
-                             fmt::format("<{}> is not supported; {}{}", child.tag, refusal->instead,
-                                         options_.lenient ? "; it is left out" : ""));
+            refuse_tag(child, *refusal);
             return false;
         }
         if (!words_.complete) return true;
@@ -104,6 +129,16 @@ private:
         diagnostics_.error(child.place(),
                            fmt::format("unknown tag <{}>{}", child.tag, way_out(child.tag, known)));
         return false;
+    }
+
+    void refuse_tag(const Element& child, const Refusal& refusal)
+    {
+        if (refusal.once && !refused_.insert({child.file.get(), refusal.instead}).second) return;
+        const std::string_view rest = !refusal.once      ? options_.lenient ? "; it is left out" : ""
+                                      : options_.lenient ? "; it and all others are left out"
+                                                         : "; --lenient leaves it and all others out";
+        diagnostics_.add(options_.lenient ? Severity::warning : Severity::error, child.place(),
+                         fmt::format("<{}> is not supported; {}{}", child.tag, refusal.instead, rest));
     }
 
     enum class Outcome { fine, stands_in, left_out };
@@ -131,10 +166,7 @@ private:
             return refuse(
                 element, at,
                 fmt::format("{} '{}' is not supported; {}", element.written_tag(), type, refusal->instead));
-        const auto* row = find_row(words_, &Vocabulary::types, [&](const TypeName& name) {
-            return name.kind == kind && name.theirs == type;
-        });
-        if (row) {
+        if (const TypeName* row = find_type(words_, kind, type)) {
             if (!row->warning.empty()) diagnostics_.warning(at, std::string(row->warning));
             if (row->ours != type) rename_attribute_value(element, "type", row->ours);
             return Outcome::fine;
@@ -167,6 +199,7 @@ private:
             return child.tag == "texture" || child.tag == "ref" || !row->convert ||
                    row->convert(child, diagnostics_);
         }
+        if (is_left_out_as_unknown(kind, type, name)) return false;
         if (!words_.complete || attribute->broken || has_any_name(kind, type)) return true;
         const std::vector<std::string_view> known = known_parameters(kind, type);
         diagnostics_.add(
@@ -175,6 +208,15 @@ private:
                         kind, type.empty() ? "" : fmt::format(" '{}'", type),
                         known.empty() ? "; it takes none" : way_out(name, known)));
         return false;
+    }
+
+    bool is_left_out_as_unknown(const std::string& kind, const std::string& type,
+                                const std::string& name) const
+    {
+        const auto* row = find_row(words_, &Vocabulary::ignored, [&](const Ignored& ignored) {
+            return fits(ignored, kind, type) && ignored.name == "*";
+        });
+        return row && !is_our_parameter(kind, our_type(words_, kind, type), name);
     }
 
     // The file's names of what the type has; rows for all types name more.
@@ -247,6 +289,7 @@ private:
     const Vocabulary& words_;
     const ArrangeOptions& options_;
     Diagnostics& diagnostics_;
+    std::set<std::pair<const TextFile*, std::string_view>> refused_; // once is enough
 };
 
 } // namespace
@@ -266,17 +309,30 @@ Element arrange(Element root, const Vocabulary& words, const ArrangeOptions& opt
 std::string_view written_parameter(const Vocabulary& words, std::string_view kind, std::string_view type,
                                    std::string_view ours)
 {
+    if (!words.complete) return ours;
     const auto* row = find_row(words, &Vocabulary::params, [&](const ParamName& param) {
         return fits(param, kind, type) && param.ours == ours;
     });
     return row ? row->theirs : ours;
 }
 
+const TypeName* find_type(const Vocabulary& words, std::string_view kind, std::string_view theirs)
+{
+    for (const Vocabulary* from = &words; from; from = from->base)
+        for (const TypeName& row : from->types)
+            if (row.kind == kind && row.theirs == theirs) return &row;
+    if (theirs.empty() || is_our_type(kind, theirs)) return nullptr;
+    const std::string name = folded(theirs);
+    for (const Vocabulary* from = &words; from; from = from->base)
+        if (from->folds)
+            for (const TypeName& row : from->types)
+                if (row.kind == kind && folded(row.theirs) == name) return &row;
+    return nullptr;
+}
+
 std::string_view our_type(const Vocabulary& words, std::string_view kind, std::string_view theirs)
 {
-    const auto* row = find_row(words, &Vocabulary::types, [&](const TypeName& name) {
-        return name.kind == kind && name.theirs == theirs;
-    });
+    const TypeName* row = find_type(words, kind, theirs);
     return row ? row->ours : theirs;
 }
 

@@ -23,6 +23,7 @@ struct TagName {
 struct TypeName {
     std::string_view kind, theirs, ours;
     std::string_view warning = {}; // what is approximated
+    std::string_view like = {};    // the type whose other rows it has; empty: its own name
 };
 // The first row that fits wins.
 struct ParamName {
@@ -36,10 +37,11 @@ struct Preset {
 };
 struct Refusal {
     std::string_view kind, type, instead;
+    bool once = false; // one message for all elements of a file that have the same advice
 };
 // A parameter that is left out.
 struct Ignored {
-    std::string_view kind, type, name;
+    std::string_view kind, type, name; // name "*": whatever our type has no parameter for
     std::string_view warning = {};
 };
 
@@ -54,6 +56,9 @@ struct Vocabulary {
     // Whether the tables are all that there is: a tag, type or parameter without a row is an error, also where our own
     // language has the word. Otherwise what has no row stays as it is.
     bool complete = false;
+    // Whether upper and lower case, blanks, - and _ make no difference in names of types. Names of our own types, written
+    // exactly, always mean those.
+    bool folds = false;
     // The syntax of parameters and of the operations of a transform, in the file's words, before anything else is done.
     Convert syntax = nullptr;
     // What is somewhere else, or nowhere, in files of this family; after all else.
@@ -71,7 +76,9 @@ struct ArrangeOptions {
 Element arrange(Element root, const Vocabulary& words, const ArrangeOptions& options,
                 Diagnostics& diagnostics);
 
-// The file's name of one of our parameters.
+// The row of a type; null: no row has it.
+const TypeName* find_type(const Vocabulary& words, std::string_view kind, std::string_view theirs);
+// The file's name of one of our parameters, where the vocabulary is complete: else it may have any of several, and ours.
 std::string_view written_parameter(const Vocabulary& words, std::string_view kind, std::string_view type,
                                    std::string_view ours);
 // Our name of a type; the same name where no row has it.

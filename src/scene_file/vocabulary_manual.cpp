@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "scene_file/vocabulary_manual.h"
 
+#include "scene_file/folded_name.h"
+#include "scene_file/fork_words.h"
 #include "scene_file/mitsuba_values.h"
 #include "scene_file/mitsuba_words.h"
 #include "scene_file/nori_words.h"
@@ -30,6 +32,17 @@ constexpr ConvertText convert_texts[] = {
     {without_scale, "must not scale"},
     {position_of, "where it moves the origin"},
     {direction_of, "where it turns +z"},
+    {angle_of_cosine, "in [-1, 1] a cosine, else degrees"},
+    {to_fraction, "limited to [0, 1]"},
+    {negated, "negated"},
+    {image_of, "also the name of an image's file"},
+    {data_image_of, "also the name of an image's file, which is not decoded"},
+    {uv_scale, "one or two factors"},
+    {u_scale, "a factor of u"},
+    {v_scale, "a factor of v"},
+    {uv_shift, "one or two numbers, added behind scales"},
+    {u_shift, "a number added to u"},
+    {v_shift, "a number added to v"},
     {only_rgb, "checked; the image is linear RGB"},
 };
 
@@ -52,7 +65,8 @@ std::string parameters_text(const Vocabulary& words, const TypeName& type)
 {
     std::string text;
     const auto is_of_it = [&](const auto& row) {
-        return row.kind == type.kind && (row.type.empty() || row.type == type.theirs);
+        return row.kind == type.kind &&
+               (row.type.empty() || row.type == (type.like.empty() ? type.theirs : type.like));
     };
     std::vector<std::string_view> done;
     for_rows(words, &Vocabulary::params, [&](const ParamName& row) {
@@ -116,7 +130,7 @@ std::optional<std::string> manual_of_type(const Vocabulary& words, std::string_v
 {
     std::string text;
     for_rows(words, &Vocabulary::types, [&](const TypeName& row) {
-        if (row.theirs != type) return;
+        if (folded(row.theirs) != folded(type)) return;
         text += fmt::format("{}{} '{}' of {}: '{}' here\n\n{}", text.empty() ? "" : "\n", row.kind, type,
                             words.name, row.ours, parameters_text(words, row));
     });

@@ -9,9 +9,8 @@ namespace plumb {
 
 namespace {
 
-using Row = SettingRow<RenderSettings>;
-
-std::string option_text(const Row& row, const RenderSettings& settings)
+template <class Settings>
+std::string option_text(const SettingRow<Settings>& row, const Settings& settings)
 {
     std::string text;
     for (const std::string& value : row.get(settings)) {
@@ -26,14 +25,22 @@ std::string option_text(const Row& row, const RenderSettings& settings)
 std::string options_text(const RenderSettings& settings)
 {
     std::string text;
-    for (const Row& row : setting_rows<RenderSettings>()) text += option_text(row, settings);
+    for (const auto& row : setting_rows<RenderSettings>()) text += option_text(row, settings);
+    return text;
+}
+
+std::string options_text(const CompareSettings& settings)
+{
+    std::string text;
+    for (const auto& row : setting_rows<CompareSettings>()) text += option_text(row, settings);
+    if (settings.samples) text += fmt::format(" --spp {}", *settings.samples);
     return text;
 }
 
 std::string replay_options_text(const RenderSettings& settings)
 {
     std::string text;
-    for (const Row& row : setting_rows<RenderSettings>())
+    for (const auto& row : setting_rows<RenderSettings>())
         // The samples of some samplers depend on how many there are.
         if (row.effect == Effect::samples || row.name == "spp") text += option_text(row, settings);
     return text;

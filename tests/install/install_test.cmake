@@ -30,6 +30,17 @@ run("${CMAKE_COMMAND}" --build "${directory}/consumer")
 file(WRITE "${directory}/suite.xml"
   "<suite size='16x12' spp='4'><render scene='${SCENE}' name='same' reference='same.exr'/></suite>\n")
 run("${directory}/moved/bin/renderer" batch "${directory}/suite.xml" --update --quiet)
+# The package without the library: tests of images.
+file(WRITE "${directory}/testing/CMakeLists.txt" "cmake_minimum_required(VERSION 3.22)
+project(testing LANGUAGES NONE)
+enable_testing()
+find_package(plumb COMPONENTS testing REQUIRED)
+plumb_add_render_test(NAME suite SUITE ${directory}/suite.xml)
+plumb_add_render_test(NAME image IMAGE ${directory}/same.exr REFERENCE ${directory}/same.exr)
+")
+run("${CMAKE_COMMAND}" -S "${directory}/testing" -B "${directory}/testing/build" -G Ninja
+  "-DCMAKE_PREFIX_PATH=${directory}/moved")
+run("${CMAKE_CTEST_COMMAND}" --test-dir "${directory}/testing/build" --no-tests=error)
 file(MAKE_DIRECTORY "${directory}/out")
 run("${directory}/consumer/consumer" "${SCENE}" "${directory}/suite.xml" "${directory}/out")
 check_image("${directory}/out/whole.exr")

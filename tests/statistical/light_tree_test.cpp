@@ -99,12 +99,14 @@ Lights random_lights(TestRandom& random, int count, int infinite)
     return lights;
 }
 
-// Light from both sides counts for every third one.
+// Light from both sides counts for every third one; some are glossy.
 LightReceiver random_receiver(TestRandom& random, double half)
 {
     const Vec3f position = point_in_cube(random, half);
     const Vec3f normal = random.direction();
-    return {position, random.next_1d() < 0.33f ? Vec3f(0.f) : normal};
+    const bool any_side = random.next_1d() < 0.33f;
+    const bool is_glossy = random.next_1d() < 0.3f;
+    return {position, any_side ? Vec3f(0.f) : normal, is_glossy};
 }
 
 // Cells: whether the first or the second half is left of u, for each emitter; and nothing.

@@ -210,7 +210,9 @@ TEST_CASE("AOVs of nothing are 0", "[unit][aov]")
     const Rendered seen(wall(-2.f, 1.f, red) + lamp);
     const Names& names = seen.image().channel_names();
     for (std::size_t i = 3; i < names.size(); ++i)
-        if (names[i].find("xyz") == std::string::npos) CHECK(seen.mean(names[i]) == 0.0); // but for the light
+        if (!names[i].starts_with("xyz") &&
+            !names[i].starts_with("variance_of_xyz")) // what arrives, from anywhere
+            CHECK(seen.mean(names[i]) == 0.0);
     CHECK(seen.mean("R") == Approx(0.5).epsilon(1e-5));
 }
 

@@ -99,6 +99,27 @@ void check_color(const Color& a, const Color& b)
 
 } // namespace
 
+TEST_CASE("zUp exchanges y and z of an environment's directions", "[unit][environment]")
+{
+    const TempDirectory directory;
+    write_image(directory / "sky.exr", image(Texels::varied));
+    const auto make = [&](bool z_up) {
+        ParamsBuilder params("emitter", "environment");
+        params.string("filename", (directory / "sky.exr").string()).boolean("zUp", z_up);
+        return params.build<EnvironmentEmitter, Emitter>();
+    };
+    const auto y_up = make(false), z_up = make(true);
+    TestRandom random(7);
+    for (int i = 0; i < 100; ++i) {
+        const Vec3f d = random.direction();
+        const EmitterValue a = y_up->evaluate(Vec3f(0.f), d, nullptr, Measure::solid_angle);
+        const EmitterValue b =
+            z_up->evaluate(Vec3f(0.f), Vec3f(d.x, d.z, d.y), nullptr, Measure::solid_angle);
+        CHECK(a.radiance == b.radiance);
+        CHECK(a.pdf == b.pdf);
+    }
+}
+
 TEST_CASE("an environment image starts at +y, and its columns run from +x over +z", "[unit][environment]")
 {
     const Color tint(2.f, 1.f, 0.5f);

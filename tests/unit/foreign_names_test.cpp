@@ -71,40 +71,29 @@ TEST_CASE("the table of foreign names points to what there is", "[unit][foreign_
 
 TEST_CASE("well-known names of other renderers are answered", "[unit][foreign_names]")
 {
-    CHECK(foreign_type("integrator", "mipath") == "integrator 'mipath' is 'path_mis' here");
-    CHECK(foreign_type("integrator", "midirect") == "integrator 'midirect' is 'direct_mis' here");
-    CHECK(foreign_type("integrator", "bsdfpath") == "integrator 'bsdfpath' is 'path_mats' here");
-    CHECK(foreign_type("integrator", "path_tracer_recursive") ==
-          "integrator 'path_tracer_recursive' is 'path_mis' here");
-    CHECK(foreign_type("integrator", "direct_lighting") ==
-          "integrator 'direct_lighting' is 'direct_mis' here");
-    for (const char* name : {"vol_path_mis", "volpath", "volPathTracer", "vol_path", "vol_path_mats"})
-        CHECK(foreign_type("integrator", name) ==
-              std::string("integrator '") + name +
-                  "' is not supported; Plumb renders surfaces in a vacuum only; use 'path_mis'");
-    CHECK(foreign_type("bsdf", "glass") == "bsdf 'glass' is 'dielectric' here");
-    CHECK(foreign_type("bsdf", "disneyBSDF") ==
-          "bsdf 'disneyBSDF' is not supported; use 'principled' or 'roughplastic'");
-    CHECK(foreign_type("emitter", "env_map") == "emitter 'env_map' is 'environment' here");
+    CHECK(foreign_type("bsdf", "metal") == "bsdf 'metal' is 'roughconductor' here");
+    CHECK(foreign_type("bsdf", "Rough_Metal") == "bsdf 'Rough_Metal' is 'roughconductor' here");
     CHECK(foreign_type("shape", "plane") ==
           "shape 'plane' is not supported; use 'rectangle', or an 'obj' mesh");
     CHECK(foreign_tag("rgb") == "<rgb> is <color> here");
-    CHECK_FALSE(foreign_type("bsdf", "mipath"));
+    CHECK_FALSE(foreign_type("integrator", "metal"));
     CHECK_FALSE(foreign_type("integrator", "path_miss"));
 }
 
 TEST_CASE("scenes and options with foreign names are told what to write", "[unit][foreign_names]")
 {
-    const std::string scene = "<scene dialect='plumb'><integrator type='mipath'/>" + camera + "</scene>";
-    CHECK_THAT(errors(scene),
-               ContainsSubstring("scene.xml:1:42: error: integrator 'mipath' is 'path_mis' here\n"));
+    const std::string scene = "<scene dialect='plumb'><integrator type='material'/>" + camera + "</scene>";
+    CHECK_THAT(errors(scene), ContainsSubstring("scene.xml:1:42: error: integrator 'material' is not "
+                                                "supported; use 'normals', or 'direct' with a "
+                                                "'point' light\n"));
     CHECK_THAT(
         errors(
             start +
             "<mesh type='sphere'><bsdf type='diffuse'><rgb name='albedo' value='1'/></bsdf></mesh></scene>"),
         ContainsSubstring("error: <rgb> is <color> here\n"));
     RenderSettings options;
-    options.method.integrator = "mipath";
-    CHECK(errors(start + "</scene>", options) ==
-          "error: --integrator mipath: integrator 'mipath' is 'path_mis' here");
+    options.method.integrator = "material";
+    CHECK(errors(start + "</scene>", options) == "error: --integrator material: integrator 'material' is not "
+                                                 "supported; use 'normals', or 'direct' with "
+                                                 "a 'point' light");
 }

@@ -261,7 +261,7 @@ TEST_CASE("a file that is missing or broken hides no other mistake", "[unit][loa
             name +
             ".png'/>\n"
             "<color name='radiance' value='-1 1 1'/>\n<float name='rot' value='1'/></emitter>\n"
-            "<shape type='sphere'><bsdf type='diffuse'>\n<texture type='textmap' name='reflectance'>\n"
+            "<shape type='sphere'><bsdf type='diffuse'>\n<texture type='textmap' name='albdo'>\n"
             "<string name='filename' value='" +
             name +
             ".png'/>\n<color name='color' value='1 -1 1'/>\n"

@@ -207,7 +207,8 @@ TEST_CASE("ids and aliases", "[unit][mitsuba]")
 TEST_CASE("what Mitsuba's files need and Plumb has not is refused in their words", "[unit][mitsuba]")
 {
     CHECK(messages("<medium type='homogeneous' name='interior'/>") ==
-          "a.xml:1:24: error: <medium> is not supported; Plumb renders surfaces in a vacuum only\n");
+          "a.xml:1:24: error: <medium> is not supported; Plumb renders surfaces in a vacuum only; --lenient "
+          "leaves it and all others out\n");
     CHECK(messages("<shape type='sdfgrid'/>") ==
           "a.xml:1:37: error: shape 'sdfgrid' is not supported; export it as a mesh\n");
     CHECK(messages("<bsdf type='difuse' id='m'/>") ==

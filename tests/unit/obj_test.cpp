@@ -124,15 +124,27 @@ TEST_CASE("corners of an OBJ file may leave out what follows their slashes", "[u
     CHECK(textured.uvs == std::vector<Vec2f>{{0, 0}, {1, 0}, {1, 1}, {0, 1}});
 }
 
-TEST_CASE("the materials of an OBJ file are counted, not read", "[unit][obj]")
+TEST_CASE("the faces of an OBJ file have the material that the last usemtl names", "[unit][obj]")
 {
-    const auto warning = [](const std::string& text) { return read_text(square + text).warning; };
-    CHECK(warning("usemtl a\nf 1 2 3\nusemtl a\nf 1 3 4\n").empty());
-    CHECK(warning("usemtl a\nusemtl b\nf 1 2 3\nusemtl c\n").empty()); // no face has a or c
-    CHECK(warning("f 1 2 3\nusemtl a\nf 1 3 4\n").empty());
-    CHECK(warning("# usemtl a\nusemtlx b\nf 1 2 3\nusemtl a\nf 1 3 4\n").empty());
-    CHECK(warning("usemtl a\nf 1 2 3\n usemtl\tb c \r\nf 1 3 4\nusemtl b c\nf 1 2 4\n") ==
-          "the faces name 2 materials (usemtl), which are not read: all use the BSDF of the scene file");
+    using Names = std::vector<std::string>;
+    using Numbers = std::vector<std::uint32_t>;
+    constexpr std::uint32_t none = FaceMaterials::none;
+    const auto check = [](const std::string& text, const Names& names, const Numbers& of_primitive) {
+        CAPTURE(text);
+        const FaceMaterials materials = read_text(square + text).materials;
+        CHECK(materials.names == names);
+        CHECK(materials.of_primitive == of_primitive);
+    };
+    check("f 1 2 3\nf 1 3 4\n", {}, {});
+    check("usemtl a\nf 1 2 3\nusemtl a\nf 1 3 4\n", {"a"}, {});
+    check("usemtl a\nusemtl b\nf 1 2 3\nusemtl c\n", {"b"}, {}); // no face has a or c
+    check("f 1 2 3\nusemtl a\nf 1 3 4\n", {"a"}, {none, 0});
+    check("# usemtl a\nusemtlx b\nf 1 2 3\nusemtl a\nf 1 3 4\n", {"a"}, {none, 0});
+    check("usemtl a\nf 1 2 3\n usemtl\tb c \r\nf 1 3 4\nusemtl a\nf 1 2 4\n", {"a", "b c"}, {0, 1, 0});
+    // A quad is two triangles; triangles without area have none.
+    check("usemtl a\nf 1 2 3 4\nusemtl b\nf 1 1 2\nf 1 2 3\n", {"a", "b"}, {0, 0, 1});
+    CHECK(read_text("mtllib a b.mtl\nmtllib c.mtl # d\n" + square + "f 1 2 3\n").materials.libraries ==
+          Names{"a b.mtl", "c.mtl # d"});
 }
 
 TEST_CASE("OBJ files with other line ends, with a byte order mark and without a last line end", "[unit][obj]")
@@ -452,14 +464,20 @@ TEST_CASE("statements of an OBJ file may go on across the border of two chunks",
 
 TEST_CASE("materials of an OBJ file go on in the next chunk", "[unit][obj]")
 {
-    const auto warning = [](std::vector<std::pair<int, std::string>> lines) {
-        return read_text(Strip{0, "\n", std::move(lines)}.text()).warning;
+    const auto materials = [](std::vector<std::pair<int, std::string>> lines) {
+        return read_text(Strip{0, "\n", std::move(lines)}.text()).materials;
     };
+    using Names = std::vector<std::string>;
     const std::string face = "\nf -3/-1/-1 -2/-1/-1 -1/-1/-1";
-    CHECK(warning({{0, "usemtl a" + face}, {15990, "usemtl a" + face}}).empty());
-    CHECK(warning({{10, "usemtl a"}, {11, "usemtl b" + face}, {15990, "usemtl b" + face}}).empty());
-    CHECK_THAT(warning({{0, "usemtl a" + face}, {15990, "usemtl b" + face}}),
-               ContainsSubstring("2 materials"));
+    const FaceMaterials same = materials({{0, "usemtl a" + face}, {15990, "usemtl a" + face}});
+    CHECK(same.names == Names{"a"});
+    CHECK(same.of_primitive.empty());
+    const FaceMaterials other = materials({{0, "usemtl a" + face}, {15990, "usemtl b" + face}});
+    CHECK(other.names == Names{"a", "b"});
+    REQUIRE(other.of_primitive.size() > 2);
+    CHECK(std::is_sorted(other.of_primitive.begin(), other.of_primitive.end()));
+    CHECK(other.of_primitive.front() == 0);
+    CHECK(other.of_primitive.back() == 1);
 }
 
 TEST_CASE("of an OBJ file's errors the first one is reported, whatever chunk it is in", "[unit][obj]")

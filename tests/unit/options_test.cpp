@@ -215,7 +215,9 @@ TEST_CASE("--help names every option of its verb", "[unit][options]")
         const std::string help = help_text(*verb);
         for (const OptionHelp& option : verb->options) {
             INFO(option.names);
-            const std::string line = std::string(option.long_name()) + " " + option.value;
+            const std::string line =
+                std::string(option.long_name()) +
+                (option.value_is_optional ? "[=" + option.value + "]" : " " + option.value);
             CHECK((help.find(", " + line) != std::string::npos ||
                    help.find("\n      " + line) != std::string::npos));
         }

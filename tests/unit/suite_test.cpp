@@ -153,7 +153,7 @@ TEST_CASE("what is wrong with a suite", "[unit][suite]")
         {"<test/>", "suite.xml:1:1: error: a <test> file is not a suite; 'renderer test FILE' runs it"},
         {"<list/>", "suite.xml:1:1: error: the root of a suite must be <suite>, not <list>"},
         {"<suite><render/></suite>",
-         R"(suite.xml:1:8: error: <render> needs an attribute 'scene': <render scene="..." .../>)"},
+         R"(suite.xml:1:8: error: <render> needs an attribute 'scene', or 'image' or 'command' for images of other programs: <render scene="..." .../>)"},
         {"<suite><render scene=''/></suite>", "suite.xml:1:23: error: the name of the scene file is empty"},
         {"<suite>\n<render scene='a.xml' spp='4'/>\n<render scene='b/a.xml' spp='4'/></suite>",
          "suite.xml:3:1: error: two entries write 'a_4.exr'; give one of them another name: <render "

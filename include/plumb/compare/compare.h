@@ -119,6 +119,10 @@ struct Significance {
     std::uint64_t pixels = 0;       // in the image
     std::uint64_t differing = 0;    // in squares that were rejected, or not finite in one image
     std::uint64_t untested = 0;     // in no square that was tested
+    // Of each pixel, the side of the smallest square with it that was rejected; 0: none, `whole_image`: only the whole.
+    // Empty: nothing was tested.
+    std::vector<std::uint16_t> rejected_by;
+    static constexpr std::uint16_t whole_image = 65535;
     // Had A been too bright or too dark all over by this factor, the test of the whole image would have found it with
     // 90 % probability. Nothing: the whole image could not be tested.
     std::optional<double> detectable_bias;
@@ -170,6 +174,11 @@ void mark_for_screens(Image& image);
 
 // The value of a metric by the name that thresholds use. Throws Error if there is none of that name.
 double metric_value(const Metrics& metrics, std::string_view name);
+
+// The squares that the test has rejected, in red over A in grey: the smaller the square, the stronger the colour. Green:
+// not finite in one image.
+Image significance_image(const Image& a, const Image& b, const Comparison& comparison,
+                         const CompareSettings& settings = {});
 
 // |a - b| (the largest of the channels), or the FLIP map of a comparison that has one, in false colours above a bar
 // with its scale, as linear colours to be written as .png. Pixels that are not finite are green.

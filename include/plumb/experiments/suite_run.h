@@ -46,20 +46,36 @@ enum class JobState {
     failed, // could not be rendered or compared
 };
 
+// A run of another program, or all of an image's replicas.
+struct ProgramRun {
+    int exit_code = 0;
+    double seconds = 0.0;
+    std::uint64_t peak_memory = 0; // bytes, of the largest process; 0: unknown
+    std::string output;            // the end of what it printed; of the last replica
+};
+
 struct SuiteResult {
     std::string title; // with the sample count, where it is known
     std::string scene;
-    std::string command; // that renders the image by hand
-    std::string image;   // .exr; empty: there is none
+    std::string command;               // that renders the image by hand
+    std::string compare_command;       // that compares it; empty: there is nothing to compare
+    std::string accept_command;        // that makes the image the reference; empty: nothing does
+    std::string image;                 // empty: there is none
+    std::vector<std::string> replicas; // the images that it is the mean of; empty: it is one
     std::string screen_image;
-    std::string reference;  // empty: none
-    std::string difference; // the image of it; empty: none
+    std::string reference;             // empty: none
+    std::string difference;            // the image of it; empty: none
+    std::string significant;           // the image of the squares that the test rejected; empty: none
+    std::string replaced;              // of a reference that is made again: where the old one is kept
+    std::vector<std::string> stale;    // why the reference is not what Plumb would make today
+    std::optional<ProgramRun> program; // that made the image, if it is not Plumb and has just run
     JobState state = JobState::not_run;
     std::optional<Verdict> verdict; // where it was compared
     bool up_to_date = false;        // not rendered again
     double seconds = 0.0;           // for all of it
     bool interrupted = false;       // before all samples were taken
     std::string problem;            // of an error: the text of all that is wrong
+    std::vector<Diagnostic> errors; // the same, one by one
     std::vector<std::string> warnings;
     std::optional<double> noise; // the root mean squared error that the image's own noise makes expect
     std::string biases;          // empty: none
@@ -87,9 +103,16 @@ struct SuiteOptions {
     std::filesystem::path directory = {}; // for images
     std::string filter = {};              // of titles: a part of them, or a pattern; empty: all
     bool fail_fast = false;               // ends at the first image that does not pass
-    bool update = false;                  // makes the references instead
-    bool force = false;                   // also what is up to date
+    // Makes references instead: those that are missing, those whose files or images have this name or pattern, or all.
+    std::optional<std::string> update = {}; // "missing", "all" or a name
+    bool check_references = false;          // renders them as their headers say, and compares
+    bool force = false;                     // also what is up to date
+    bool allow_commands = false;            // other programs may be run
     int threads = 0;
+    std::map<std::string, std::string> definitions =
+        {}; // that the suite was read with, for the commands of the report
+
+    bool is_about_references() const { return update || check_references; }
 };
 
 // Of a job, while it is told of; null: there is none.
@@ -99,8 +122,8 @@ struct SuiteImages {
 };
 using SuiteTold = std::function<void(const SuiteResult&, const SuiteImages&)>;
 
-// The jobs whose images or, to update, references will be made. Throws Error if there are none, SceneError if it is not
-// clear how a reference is made.
+// The jobs whose images or references will be made; none if no reference is missing. Throws Error if nothing has the name
+// that is asked for, SceneError if it is not clear how a reference is made.
 std::vector<SuiteJob> chosen_jobs(const std::filesystem::path& suite, const std::vector<SuiteJob>& jobs,
                                   const SuiteOptions& options);
 

@@ -33,6 +33,7 @@ constexpr Lobes operator|(Lobe a, Lobe b)
     return Lobes(a) | Lobes(b);
 }
 inline constexpr Lobes delta_lobes = Lobe::delta_reflection | Lobe::delta_transmission | Lobe::null;
+inline constexpr Lobes glossy_lobes = Lobe::glossy_reflection | Lobe::glossy_transmission;
 inline constexpr Lobes transmission_lobes = Lobe::glossy_transmission | Lobe::delta_transmission;
 
 struct BsdfValue {

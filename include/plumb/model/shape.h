@@ -10,6 +10,8 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -17,6 +19,17 @@
 #include <vector>
 
 namespace plumb {
+
+// What the file of a mesh says about the materials of its faces.
+struct FaceMaterials {
+    static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
+    std::vector<std::string> names; // that faces use, in the order of the file
+    std::vector<std::uint32_t>
+        of_primitive; // an index into names, or none; empty: all are 0, or none without names
+    std::vector<std::string> libraries;   // where the materials are described, as the file says it
+    std::filesystem::path directory = {}; // that libraries are relative to
+};
 
 // Primitives that Embree does not know: it asks for their bounds once, and for intersections as it traces.
 class Primitives {
@@ -93,6 +106,9 @@ public:
     virtual std::optional<Ball> as_ball() const { return std::nullopt; } // if its surface is that of a ball
     virtual std::uint64_t triangle_count() const { return 0; }
     virtual std::uint64_t memory_bytes() const { return 0; } // of its mesh, if it has one
+
+    // Gives away what a mesh file says about materials.
+    virtual FaceMaterials take_face_materials() { return {}; }
 
     // Values that a mesh file gives its vertices or faces under a name, "vertex_color" say, as they are at a point that
     // surface_at returned; nothing if there is no such attribute. One channel is a grey.

@@ -18,7 +18,11 @@ int exit_code_of(const SuiteRun& run);
 std::string_view result_word(const SuiteResult& result);
 // One line: why the verdict is not "passes".
 std::string reason_text(const SuiteResult& result);
-std::string summary_text(const SuiteRun& run); // "3 pass, 1 differs; 2 were up to date"
+std::string stale_text(const SuiteResult& result); // one line; empty: the reference is not stale
+std::string summary_text(const SuiteRun& run);     // "3 pass, 1 differs; 2 were up to date"
+
+// The order of reports: errors, differences, what is undecided, and the rest.
+std::vector<const SuiteResult*> failures_first(const SuiteRun& run);
 
 // A line of a table.
 std::string result_line(const SuiteResult& result, std::size_t title_width);
@@ -47,9 +51,11 @@ private:
 std::string suite_json(const SuiteRun& run);
 std::string suite_junit(const SuiteRun& run);
 std::string suite_markdown(const SuiteRun& run);
-std::string suite_html(const SuiteRun& run, const ShownImages& images);
+// history: of earlier runs and this one, a line of JSON each.
+std::string suite_html(const SuiteRun& run, const ShownImages& images,
+                       const std::vector<std::string>& history = {});
 
-// All of them, as report.json, junit.xml, summary.md and report.html. Throws Error.
+// All of them, as report.json, junit.xml, summary.md and report.html; and history.json, with this run added. Throws Error.
 void write_suite_reports(const SuiteRun& run, const ShownImages& images,
                          const std::filesystem::path& directory);
 // Makes the directory, and touches no file in it. Throws Error if one of them cannot be written.

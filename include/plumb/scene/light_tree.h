@@ -12,6 +12,10 @@
 // stand beside the root, for what they are expected to send to any place of the scene; but glossy surfaces may show
 // nothing else, so that they are chosen as often as their share of the power says, or half of the time, at least.
 //
+// The bounds assume that a receiver is diffuse. A glossy one may reflect the emitter that promises least and none of the
+// others: there, some choices are uniform among the finite emitters, three of four where they are few. With many, uniform
+// choice finds what is reflected too seldom to help, and its share falls as their number grows.
+//
 // Built serially, in double precision: the same tree everywhere.
 
 #include "plumb/model/emitter.h"
@@ -42,7 +46,7 @@ public:
     {
         if (only_ != none) [[likely]]
             return Choice{only_, 1.f, std::min(u, largest_below_one)};
-        return choose_among_several(receiver, u);
+        return receiver.is_glossy ? choose_at_glossy(receiver, u) : choose_among_several(receiver, u);
     }
 
     // That of choosing emitter `index` of those given: the same bits as in what choose() returns.
@@ -50,7 +54,8 @@ public:
     {
         if (only_ != none) [[likely]]
             return index == only_ ? 1.f : 0.f;
-        return probability_among_several(receiver, index);
+        return receiver.is_glossy ? probability_at_glossy(receiver, index)
+                                  : probability_among_several(receiver, index);
     }
 
 private:
@@ -81,6 +86,8 @@ private:
     struct Receiver;
     struct Shares;
 
+    std::optional<Choice> choose_at_glossy(const LightReceiver& receiver, double u) const;
+    float probability_at_glossy(const LightReceiver& receiver, std::size_t index) const;
     std::optional<Choice> choose_among_several(const LightReceiver& receiver, double u) const;
     float probability_among_several(const LightReceiver& receiver, std::size_t index) const;
     Shares shares(std::uint32_t node, const Receiver& receiver) const;
@@ -91,8 +98,10 @@ private:
     std::vector<std::uint32_t> infinite_emitters_;
     DiscreteDistribution infinite_;    // over infinite_emitters_
     double infinite_irradiance_ = 0.0; // expected, in the unit of importance
-    double least_infinite_ = 0.0; // importance of the infinite ones over that of the finite ones, at least
-    float scale_ = 1.f;           // a power of two over the size of the scene
+    double least_infinite_ = 0.0;  // importance of the infinite ones over that of the finite ones, at least
+    float scale_ = 1.f;            // a power of two over the size of the scene
+    DiscreteDistribution uniform_; // over all emitters: the finite ones alike
+    double uniform_share_ = 0.0;   // of the choices at glossy receivers
 };
 
 } // namespace plumb

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "cli/console.h"
+#include "cli/outputs.h"
 #include "cli/verb_file.h"
+#include "rendering/output_files.h"
 #include "reports/exit_codes.h"
+#include "reports/facts_json.h"
 
+#include "base/text_file.h"
 #include "base/visible_text.h"
+#include "image/npy.h"
 #include "render/sample_text.h"
 
 #include "plumb/image/image.h"
@@ -54,10 +59,38 @@ void print_value(const std::string& name, const std::vector<float>& values)
     }
 }
 
-int run(const VerbOptions& options)
+struct Options : VerbOptions {
+    std::string json;
+    std::string pixels; // .npy; empty: none
+};
+
+void settle(Options& options)
+{
+    check_output_names({}, {{"--json", options.json}, {"--pixels", options.pixels}});
+}
+
+// What the command writes, and whether it can.
+void check_files(const Options& options)
+{
+    check_outputs({}, options.json);
+    std::vector<std::string> written = with_json({}, options.json);
+    if (!options.pixels.empty()) {
+        check_text_path(options.pixels);
+        written.push_back(options.pixels);
+    }
+    if (const auto twice = listed_twice(written))
+        throw UsageError(fmt::format("'{}' is listed as an output twice", *twice));
+    KeptFiles({options.subject()}).refuse(written, "it is the image to read");
+}
+
+int run(const Options& options)
 {
     const std::string& file = options.subject();
-    const Image image = read_image(file, false);
+    check_files(options);
+    const Image image = read_image(file, !options.pixels.empty());
+    if (!options.pixels.empty()) write_npy(options.pixels, image);
+    write_json(options.json, info_json(file, image));
+    if (options.json == "-") return exit_code::done;
     print_output(visible_text(file) + "\n");
     print_row("size", fmt::format("{} x {}", image.full_width(), image.full_height()));
     const PixelRect& window = image.data_window();
@@ -76,8 +109,16 @@ int run(const VerbOptions& options)
 struct InfoVerb {
     static Verb make()
     {
-        return make_verb<VerbOptions>({"info", "IMAGE", "print the header of an image", "image", 1, 1},
-                                      help_option<VerbOptions>(), run);
+        return make_verb<Options>(
+            {"info", "IMAGE", "print the header of an image", "image", 1, 1},
+            join<Options>({json_option<Options>(),
+                           text_option<Options>(Topic::output, "--pixels", "FILE",
+                                                "write all channels as 32-bit floats to this\n"
+                                                ".npy file, for numpy: [row, column, channel],\n"
+                                                "linear",
+                                                &Options::pixels),
+                           help_option<Options>()}),
+            run, settle);
     }
 };
 template const Verb& verb<InfoVerb>();

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "cli/console.h"
+#include "cli/outputs.h"
 #include "cli/usage_error.h"
 #include "cli/verb_file.h"
 #include "plumb/scene_file/scene_file.h"
 #include "reports/exit_codes.h"
+#include "reports/facts_json.h"
 #include "scene_file/catalog.h"
 #include "scene_file/element_manuals.h"
 #include "scene_file/foreign_names.h"
+#include "scene_file/nori_words.h"
 #include "scene_file/placement.h"
 #include "scene_file/vocabulary_manual.h"
 
@@ -102,6 +105,7 @@ bool print_element_manual(std::string_view name)
 }
 
 struct Options : VerbOptions {
+    std::string json;
     std::string dialect;
 };
 
@@ -124,6 +128,20 @@ void print_vocabulary(const std::string& dialect, const std::string& name)
     print_output(*manual);
 }
 
+void settle(Options& options)
+{
+    if (!options.json.empty() && !options.dialect.empty())
+        throw UsageError("--json lists our own words and cannot be used with --dialect");
+    check_output_names({}, {{"--json", options.json}});
+}
+
+bool is_known(std::string_view name)
+{
+    const auto& types = known_types();
+    return find_element_manual(name) ||
+           std::any_of(types.begin(), types.end(), [&](const TypeInfo& type) { return type.name == name; });
+}
+
 int run(const Options& options)
 {
     const std::string name = options.subjects.empty() ? "" : options.subject();
@@ -131,11 +149,19 @@ int run(const Options& options)
         print_vocabulary(options.dialect, name);
         return exit_code::done;
     }
+    if (!options.json.empty()) {
+        if (!name.empty() && !is_known(name)) reject_name(name);
+        check_outputs({}, options.json);
+        write_json(options.json, types_json(name));
+        return exit_code::done;
+    }
     if (name.empty()) {
         print_list();
         print_elements();
     } else if (!print_type_manuals(name) && !print_element_manual(name)) {
-        reject_name(name);
+        const auto other = manual_of_type(nori_vocabulary(DialectName::plumb), name);
+        if (!other) reject_name(name);
+        print_output(*other);
     }
     return exit_code::done;
 }
@@ -147,12 +173,13 @@ struct TypesVerb {
     {
         return make_verb<Options>(
             {"types", "[NAME]", "list all types, or print a manual", "name", 0, 1},
-            join<Options>({text_option<Options>(Topic::scene, "--dialect", "NAME",
-                                                "in the words of mitsuba3, mitsuba06 or a course, with what\n"
-                                                "they are called here",
-                                                &Options::dialect, "name"),
-                           help_option<Options>()}),
-            run);
+            join<Options>(
+                {text_option<Options>(
+                     Topic::scene, "--dialect", "NAME",
+                     "in the words of mitsuba3, mitsuba06 or a\ncourse, with what they are called here",
+                     &Options::dialect, "name"),
+                 json_option<Options>(), help_option<Options>()}),
+            run, settle);
     }
 };
 template const Verb& verb<TypesVerb>();

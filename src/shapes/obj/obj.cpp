@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 
 // Reading OBJ files, in chunks that all threads share: what is in each is counted; then its text is checked and its
-// numbers (obj_scan.cpp) and faces (obj_faces.cpp, tinyobjloader) are read; then all are put together (obj_mesh.cpp).
+// numbers and faces are read (obj_scan.cpp); then all are put together (obj_mesh.cpp).
 // What comes out does not depend on the chunks: errors are those of the first chunk that has one.
 
 #include "base/memory.h"
@@ -11,6 +11,7 @@
 #include "plumb/shapes/mesh.h"
 #include "shapes/mesh_parts.h"
 #include "shapes/obj/obj_characters.h"
+#include "shapes/obj/obj_materials.h"
 #include "shapes/obj/obj_mesh.h"
 
 #include <fmt/format.h>
@@ -83,14 +84,15 @@ MeshData read_mesh(const std::filesystem::path& path)
                          [&](std::size_t i) { chunks[i] = scan_obj(file, parts[i], before[i], found); });
     check_obj(file, chunks, all);
 
-    ObjMaterials materials;
+    FaceMaterials materials = number_materials(chunks);
     std::vector<ObjFaces> faces;
-    for (ObjChunk& chunk : chunks) {
-        materials.append(chunk.materials);
-        faces.push_back(std::move(chunk.faces));
-    }
-    text.bytes.reset(); // memory; the names of materials end here, too
-    return assemble_obj_mesh(std::move(found), std::move(faces), materials.count());
+    for (ObjChunk& chunk : chunks) faces.push_back(std::move(chunk.faces));
+    text.bytes.reset(); // memory
+    MeshData mesh = assemble_obj_mesh(std::move(found), std::move(faces));
+    materials.of_primitive = std::move(mesh.materials.of_primitive);
+    materials.directory = path.parent_path();
+    mesh.materials = std::move(materials);
+    return mesh;
 }
 
 } // namespace

@@ -1,25 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The faces of an OBJ file, on their way from the scanner, which checks them, through tinyobjloader, which reads them.
+// The faces of an OBJ file, as its scanner reads them.
 
 #include <cstddef>
 #include <cstdint>
-#include <span>
-#include <string_view>
 #include <vector>
 
 namespace plumb {
-
-// Consecutive `f` lines that passed every check but the upper end of their indices, and what came before them in the
-// file: negative indices count back from there. Without the last line's end.
-struct ObjFaceBlock {
-    std::string_view text;
-    std::size_t first_face = 0; // counted from the first block
-    std::int32_t positions_before = 0;
-    std::int32_t uvs_before = 0;
-    std::int32_t normals_before = 0;
-};
 
 // Indices count from 0; -1: the corner has none. They may still be too large.
 struct ObjCorner {
@@ -58,14 +46,28 @@ private:
     std::vector<std::int32_t> normals_; // likewise
 };
 
+// From this face on, up to the next run: an index into FaceMaterials::names, or FaceMaterials::none.
+struct ObjMaterialRun {
+    std::size_t first_face = 0;
+    std::uint32_t material = 0;
+};
+
 struct ObjFaces {
-    ObjCorners corners;              // of all faces, one after the other
-    std::vector<std::uint32_t> ends; // face i ends before corner ends[i]
+    ObjCorners corners;                    // of all faces, one after the other
+    std::vector<std::uint32_t> ends;       // face i ends before corner ends[i]
+    std::vector<ObjMaterialRun> materials; // empty: all of the file's faces have the same
     bool any_uv = false;
     bool all_uv = true;
     bool any_normal = false;
-};
 
-ObjFaces read_obj_faces(std::span<const ObjFaceBlock> blocks);
+    void add_corner(const ObjCorner& corner)
+    {
+        any_uv |= corner.uv >= 0;
+        all_uv &= corner.uv >= 0;
+        any_normal |= corner.normal >= 0;
+        corners.push_back(corner);
+    }
+    void end_face() { ends.push_back(static_cast<std::uint32_t>(corners.size())); }
+};
 
 } // namespace plumb

@@ -1,36 +1,17 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The materials that the faces of an OBJ file name. They are only counted: a mesh has one BSDF, the scene file's.
+// The materials that the faces of an OBJ file name.
 
-#include <optional>
-#include <set>
-#include <string_view>
+#include "plumb/model/shape.h"
+#include "shapes/obj/obj_scan.h"
+
+#include <span>
 
 namespace plumb {
 
-class ObjMaterials {
-public:
-    // `usemtl`: the material of the faces that follow. The text must stay.
-    void use(std::string_view name)
-    {
-        current_ = name;
-        is_counted_ = false;
-    }
-    void add_face()
-    {
-        if (!is_counted_) count_current();
-    }
-    void append(const ObjMaterials& next); // of the chunk behind this one
-    std::size_t count() const { return names_.size(); }
-
-private:
-    void count_current();
-
-    std::set<std::string_view> names_;
-    std::optional<std::string_view> current_; // nothing before the first `usemtl`
-    bool is_counted_ = false;
-    bool has_faces_before_ = false; // the first `usemtl`
-};
+// The names that faces use, in the order of the file, and what `mtllib` lines name. The chunks' faces get their runs, unless
+// all have the same material. Copies the text.
+FaceMaterials number_materials(std::span<ObjChunk> chunks);
 
 } // namespace plumb

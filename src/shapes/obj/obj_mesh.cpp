@@ -85,7 +85,8 @@ struct FileFacts {
 // The triangles of a chunk: three corners each, and what became of the others.
 struct ObjTriangles {
     ObjCorners corners;
-    std::vector<Vec3f> face_normals; // a corner's normal -2 - i is the i-th of them
+    std::vector<std::uint32_t> materials; // one a triangle, or empty
+    std::vector<Vec3f> face_normals;      // a corner's normal -2 - i is the i-th of them
     std::size_t without_area = 0;
 };
 
@@ -99,7 +100,11 @@ public:
         std::vector<Vec3f> polygon;
         std::vector<PolygonTriangle> cut;
         std::uint32_t begin = 0;
-        for (const std::uint32_t end : faces_.ends) {
+        std::size_t run = 0;
+        for (std::size_t face = 0; face < faces_.ends.size(); ++face) {
+            const std::uint32_t end = faces_.ends[face];
+            while (run + 1 < faces_.materials.size() && faces_.materials[run + 1].first_face <= face) ++run;
+            if (!faces_.materials.empty()) material_ = faces_.materials[run].material;
             face_begin_ = begin;
             face_end_ = end;
             has_face_normal_ = false;
@@ -120,10 +125,12 @@ public:
 private:
     void add_if_area(std::uint32_t a, std::uint32_t b, std::uint32_t c)
     {
-        if (has_area(position(a), position(b), position(c)))
-            for (const std::uint32_t i : {a, b, c}) result_.corners.push_back(corner(i));
-        else
+        if (!has_area(position(a), position(b), position(c))) {
             ++result_.without_area;
+            return;
+        }
+        for (const std::uint32_t i : {a, b, c}) result_.corners.push_back(corner(i));
+        if (!faces_.materials.empty()) result_.materials.push_back(material_);
     }
 
     ObjCorner corner(std::uint32_t i)
@@ -161,6 +168,7 @@ private:
     const FileFacts& file_;
     const ObjFaces& faces_;
     ObjTriangles result_;
+    std::uint32_t material_ = 0; // of the face
     std::uint32_t face_begin_ = 0;
     std::uint32_t face_end_ = 0;
     bool has_face_normal_ = false;
@@ -168,8 +176,7 @@ private:
 
 class Assembler {
 public:
-    Assembler(ObjAttributes& attributes, std::vector<ObjFaces> faces, std::size_t materials)
-        : found_(attributes), materials_(materials)
+    Assembler(ObjAttributes& attributes, std::vector<ObjFaces> faces) : found_(attributes)
     {
         bool any_uv = false;
         bool all_uv = true;
@@ -222,6 +229,8 @@ private:
                 const std::uint32_t b = index(i + 1);
                 mesh_.triangles.push_back({a, b, index(i + 2)});
             }
+            std::vector<std::uint32_t>& materials = mesh_.materials.of_primitive;
+            materials.insert(materials.end(), chunk.materials.begin(), chunk.materials.end());
             without_area_ += chunk.without_area;
             faces_without_normal_ += chunk.face_normals.size();
             chunk = {}; // memory
@@ -283,17 +292,12 @@ private:
                 "own normal is used",
                 faces_without_normal_, face_count_));
         if (dropped_uvs_) add("texture coordinates are ignored, because some face corners have none");
-        if (materials_ > 1)
-            add(fmt::format("the faces name {} materials (usemtl), which are not read: all use the BSDF of "
-                            "the scene file",
-                            materials_));
     }
 
     ObjAttributes& found_;
     FileFacts file_{found_};
     std::vector<ObjTriangles> chunks_;
     MeshData mesh_;
-    std::size_t materials_;
     std::size_t face_count_ = 0;
     std::size_t without_area_ = 0;
     std::size_t faces_without_normal_ = 0;
@@ -302,9 +306,9 @@ private:
 
 } // namespace
 
-MeshData assemble_obj_mesh(ObjAttributes attributes, std::vector<ObjFaces> faces, std::size_t materials)
+MeshData assemble_obj_mesh(ObjAttributes attributes, std::vector<ObjFaces> faces)
 {
-    return Assembler(attributes, std::move(faces), materials).run();
+    return Assembler(attributes, std::move(faces)).run();
 }
 
 } // namespace plumb

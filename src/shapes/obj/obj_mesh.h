@@ -8,8 +8,8 @@
 
 namespace plumb {
 
-// faces: of the file's chunks, in order; their indices must be in range. materials: how many the faces name. Throws
-// Error if no triangle has an area.
-MeshData assemble_obj_mesh(ObjAttributes attributes, std::vector<ObjFaces> faces, std::size_t materials);
+// faces: of the file's chunks, in order; their indices must be in range. Of the materials, only of_primitive is set.
+// Throws Error if no triangle has an area.
+MeshData assemble_obj_mesh(ObjAttributes attributes, std::vector<ObjFaces> faces);
 
 } // namespace plumb

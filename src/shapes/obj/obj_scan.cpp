@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -40,10 +39,10 @@ std::string_view keyword_at(const char* p)
     return is_token_end(p + keyword.size()) ? keyword : std::string_view();
 }
 
-// The name behind `usemtl`, to the end of the line; nothing where the statement is another. p: behind the line's blanks.
-std::optional<std::string_view> material_at(const char* p)
+// What stands behind a keyword, to the end of the line; nothing where the statement is another. p: behind the line's
+// blanks.
+std::optional<std::string_view> text_behind(std::string_view keyword, const char* p)
 {
-    constexpr std::string_view keyword = "usemtl";
     for (const char c : keyword)
         if (*p++ != c) return std::nullopt;
     if (!is_token_end(p)) return std::nullopt;
@@ -64,8 +63,6 @@ public:
         const char* p = chunk_.data();
         const char* const end = p + chunk_.size();
         while (p != end) p = scan_line(p);
-        end_block();
-        result_.faces = read_obj_faces(blocks_);
         return std::move(result_);
     }
 
@@ -77,7 +74,7 @@ private:
         const std::string_view keyword = keyword_at(p);
         if (keyword.empty()) return scan_other(p);
         const char* rest = p + keyword.size();
-        if (keyword == "f") return scan_face(line, p, rest);
+        if (keyword == "f") return scan_face(p, rest);
         if (keyword == "v") {
             float x[3];
             rest = scan_numbers(p, rest, vertex_numbers, x);
@@ -97,7 +94,9 @@ private:
 
     const char* scan_other(const char* p)
     {
-        if (const auto name = material_at(p)) result_.materials.use(*name);
+        if (const auto name = text_behind("usemtl", p))
+            result_.materials.push_back({result_.faces.ends.size(), *name});
+        if (const auto name = text_behind("mtllib", p)) result_.libraries.push_back(*name);
         return next_statement(p);
     }
 
@@ -133,76 +132,55 @@ private:
         fail(token, fmt::format("numbers must lie between -1e18 and 1e18, not '{}'", excerpt(token)));
     }
 
-    const char* scan_face(const char* line, const char* keyword, const char* p)
+    const char* scan_face(const char* keyword, const char* p)
     {
         int count = 0;
         const char* last = p;
-        bool is_plain = true; // tinyobjloader understands it as it is
         for (p = skip_blanks(p); !is_line_end(*p) && *p != '#'; p = skip_blanks(p)) {
             last = p = scan_corner(p);
-            is_plain = is_plain && p[-1] != '/';
             ++count;
         }
         if (count < 3)
             fail(std::string_view(keyword, static_cast<std::size_t>(last - keyword)),
                  fmt::format("a face needs at least 3 corners, not {}", count));
-        result_.materials.add_face();
-        const char* const next = next_line(p);
-        if (is_plain && std::find(line, last, '\\') == last)
-            add_to_block(line, last, *p == '#' ? nullptr : next);
-        else
-            add_rewritten(keyword + 1, last);
-        ++face_count_;
-        return next;
-    }
-
-    // The face from `line` to `last`. next: the line whose face may extend the block, or null.
-    void add_to_block(const char* line, const char* last, const char* next)
-    {
-        if (line != block_next_) {
-            end_block();
-            block_ = new_block();
-            block_begin_ = line;
-        }
-        block_end_ = last;
-        block_next_ = next;
-    }
-
-    // A block of its own for the corners from p to `end`: in one line, and without slashes at their ends.
-    void add_rewritten(const char* p, const char* end)
-    {
-        end_block();
-        std::string& text = rewritten_.emplace_back("f");
-        for (p = skip_blanks(p); p != end; p = skip_blanks(p)) {
-            std::string_view corner(p, static_cast<std::size_t>(token_end(p) - p));
-            p += corner.size();
-            while (corner.ends_with('/')) corner.remove_suffix(1);
-            text.append(" ").append(corner);
-            if (p == end) break;
-        }
-        blocks_.push_back(new_block());
-        blocks_.back().text = text;
+        result_.faces.end_face();
+        return next_line(p);
     }
 
     // p, p/t, p//n or p/t/n; what is left out may leave its slashes behind.
     const char* scan_corner(const char* p)
     {
         const char* const begin = p;
-        p = scan_index(begin, p, next_.positions, position_indices, result_.position);
+        ObjCorner corner;
+        const auto scan = [&](std::int32_t& to, std::size_t count_so_far, const IndexKind& kind,
+                              ObjLargestIndex& largest) {
+            const Index index = scan_index(begin, p, count_so_far, kind, largest);
+            to = index.value;
+            p = index.end;
+        };
+        scan(corner.position, next_.positions, position_indices, result_.position);
         if (*p == '/' && p[1] == '/') {
             p += 2;
-            if (!is_token_end(p)) p = scan_index(begin, p, next_.normals, normal_indices, result_.normal);
+            if (!is_token_end(p)) scan(corner.normal, next_.normals, normal_indices, result_.normal);
         } else if (*p == '/' && !is_token_end(++p)) {
-            p = scan_index(begin, p, next_.uvs, uv_indices, result_.uv);
+            scan(corner.uv, next_.uvs, uv_indices, result_.uv);
             if (*p == '/' && !is_token_end(++p))
-                p = scan_index(begin, p, next_.normals, normal_indices, result_.normal);
+                scan(corner.normal, next_.normals, normal_indices, result_.normal);
         }
         if (!is_token_end(p)) fail_corner(begin);
+        result_.faces.add_corner(corner);
         return p;
     }
 
-    const char* scan_index(const char* corner, const char* p, std::size_t count_so_far, const IndexKind& kind,
-                           ObjLargestIndex& largest) const
+    // Counted from 0; where it ends.
+    struct Index {
+        std::int32_t value;
+        const char* end;
+    };
+
+    // In the file 1 is the first and -1 the last so far.
+    Index scan_index(const char* corner, const char* p, std::size_t count_so_far, const IndexKind& kind,
+                     ObjLargestIndex& largest) const
     {
         const char* const begin = p;
         const bool negative = *p == '-';
@@ -215,28 +193,12 @@ private:
 
         const std::string_view token(begin, static_cast<std::size_t>(p - begin));
         if (magnitude == 0) fail(token, "indices count from 1 (or backwards from -1), not from 0");
-        if (negative && magnitude > static_cast<std::int64_t>(count_so_far))
+        const auto so_far = static_cast<std::int64_t>(count_so_far);
+        if (negative && magnitude > so_far)
             fail(token, fmt::format("{} index {} is out of range: only {} so far", kind.one, excerpt(token),
                                     kind.counted(count_so_far)));
         if (!negative && magnitude > largest.value) largest = {static_cast<std::int32_t>(magnitude), token};
-        return p;
-    }
-
-    ObjFaceBlock new_block() const
-    {
-        return {{},
-                face_count_,
-                static_cast<std::int32_t>(next_.positions),
-                static_cast<std::int32_t>(next_.uvs),
-                static_cast<std::int32_t>(next_.normals)};
-    }
-
-    void end_block()
-    {
-        if (!block_begin_) return;
-        block_.text = std::string_view(block_begin_, static_cast<std::size_t>(block_end_ - block_begin_));
-        blocks_.push_back(block_);
-        block_begin_ = block_end_ = block_next_ = nullptr;
+        return {static_cast<std::int32_t>(negative ? so_far - magnitude : magnitude - 1), p};
     }
 
     [[noreturn]] void fail(std::string_view at, const std::string& message) const
@@ -256,15 +218,6 @@ private:
     ObjCounts next_; // what has been found so far, in the whole file
     ObjAttributes& found_;
     ObjChunk result_;
-    std::size_t face_count_ = 0;
-
-    // Faces that were checked.
-    ObjFaceBlock block_;
-    const char* block_begin_ = nullptr;
-    const char* block_end_ = nullptr;
-    const char* block_next_ = nullptr; // the line that would extend the block
-    std::vector<ObjFaceBlock> blocks_;
-    std::deque<std::string> rewritten_; // which keeps its elements in place
 };
 
 } // namespace

@@ -3,12 +3,10 @@
 
 // Checks the text of an OBJ file and reads its numbers, chunk by chunk.
 //
-// tinyobjloader turns what it cannot read into 0, and rounds decimals with libm's pow; so numbers are read here, to
-// the nearest float, and faces are passed on to it only when they were found to be in order.
+// Numbers are rounded to the nearest float.
 
 #include "plumb/math/math.h"
 #include "shapes/obj/obj_faces.h"
-#include "shapes/obj/obj_materials.h"
 
 #include <string>
 #include <string_view>
@@ -40,12 +38,19 @@ struct ObjLargestIndex {
     std::string_view at = {};
 };
 
+// `usemtl`: the material of the faces that follow.
+struct ObjMaterialUse {
+    std::size_t first_face = 0; // of the chunk
+    std::string_view name;      // in the file's text
+};
+
 struct ObjChunk {
     ObjFaces faces;
     ObjLargestIndex position;
     ObjLargestIndex uv;
     ObjLargestIndex normal;
-    ObjMaterials materials;
+    std::vector<ObjMaterialUse> materials;
+    std::vector<std::string_view> libraries; // what stands behind `mtllib`
 };
 
 // How many of them the statements of `chunk` give.

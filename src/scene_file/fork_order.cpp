@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: MIT
+#include "plumb/math/math.h"
+#include "scene_file/catalog.h"
+#include "scene_file/folded_name.h"
+#include "scene_file/fork_words.h"
+#include "scene_file/property_values.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include <fmt/format.h>
+
+namespace plumb {
+
+namespace {
+
+Element* child_named(Element& element, std::string_view name)
+{
+    const auto found = std::find_if(element.children.begin(), element.children.end(),
+                                    [&](const Element& child) { return child.value("name") == name; });
+    return found == element.children.end() ? nullptr : &*found;
+}
+
+// What a texture that no BSDF of its own stands around is for.
+enum class MapKind { none, normal, height };
+
+bool says(const Element& texture, std::string_view word)
+{
+    return folded(texture.written_type()).find(word) != std::string::npos ||
+           folded(texture.value("name")).find(word) != std::string::npos;
+}
+
+MapKind map_kind(const Element& child)
+{
+    if (child.tag != "texture") return MapKind::none;
+    if (says(child, "normal")) return MapKind::normal;
+    return says(child, "bump") || says(child, "height") ? MapKind::height : MapKind::none;
+}
+
+// The BSDF with the map around it, which has its id.
+Element mapped(Element bsdf, Element map, MapKind kind)
+{
+    const bool is_normal = kind == MapKind::normal;
+    Element outer = made_object(bsdf, "bsdf", is_normal ? "normalmap" : "bumpmap");
+    if (bsdf.tag == "bsdf")
+        for (Attribute& attribute : bsdf.attributes)
+            if (attribute.name == "id") outer.attributes.push_back(attribute);
+    if (bsdf.tag == "bsdf")
+        std::erase_if(bsdf.attributes, [](const Attribute& attribute) { return attribute.name == "id"; });
+    set_attribute(map, "name", is_normal ? "normal" : "height");
+    const std::string type = map.value("type");
+    if ((type == "bitmap" || type == "imagetexture_color3f") && !child_named(map, "raw"))
+        map.children.push_back(made_parameter(map, "boolean", "raw", "true"));
+    outer.children.push_back(std::move(map));
+    outer.children.push_back(std::move(bsdf));
+    return outer;
+}
+
+class Order {
+public:
+    explicit Order(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+
+    // Recursion ends: parse_document().
+    void visit(Element& element)
+    {
+        for (Element& child : element.children) visit(child);
+        const std::string_view kind = kind_of_tag(element.tag);
+        const std::string type = element.value("type");
+        if (kind == "texture") merge_uv(element);
+        if (kind == "bsdf") order_bsdf(element, type);
+        if (kind == "shape") order_shape(element);
+        if (kind == "emitter" && type == "environment") order_environment(element);
+        if (kind == "emitter" && type == "spot") order_spot(element);
+    }
+
+private:
+    // First all scales, then all shifts.
+    static void merge_uv(Element& texture)
+    {
+        const auto is_map = [](const Element& child) {
+            return child.tag == "transform" && child.value("name") == "toUv";
+        };
+        if (std::count_if(texture.children.begin(), texture.children.end(), is_map) < 2) return;
+        const auto rest = std::stable_partition(texture.children.begin(), texture.children.end(),
+                                                [&](const Element& child) { return !is_map(child); });
+        std::vector<Element> operations;
+        for (auto map = rest; map != texture.children.end(); ++map)
+            std::move(map->children.begin(), map->children.end(), std::back_inserter(operations));
+        std::stable_partition(operations.begin(), operations.end(),
+                              [](const Element& operation) { return operation.tag != "translate"; });
+        rest->children = std::move(operations);
+        texture.children.erase(rest + 1, texture.children.end());
+    }
+
+    void order_bsdf(Element& bsdf, const std::string& type)
+    {
+        drop_values_under_images(bsdf);
+        if (type == "principled" && bsdf.written_type() != type) // a fork's name for it
+            for (Element& child : bsdf.children)
+                if (child.tag == "texture" && !child.attribute("name") && map_kind(child) == MapKind::none)
+                    set_attribute(child, "name", "baseColor");
+        if (type == "normalmap" || type == "bumpmap") return;
+        const auto map = std::find_if(bsdf.children.begin(), bsdf.children.end(),
+                                      [](const Element& child) { return map_kind(child) != MapKind::none; });
+        if (map == bsdf.children.end()) return;
+        Element taken = std::move(*map);
+        const MapKind kind = map_kind(taken);
+        bsdf.children.erase(map);
+        bsdf = mapped(std::move(bsdf), std::move(taken), kind);
+    }
+
+    // An image given by its name alone stands in for the value that is given as well.
+    static void drop_values_under_images(Element& bsdf)
+    {
+        std::vector<std::string> names;
+        for (const Element& child : bsdf.children)
+            if (child.tag == "texture" && child.written_tag() == "string")
+                names.push_back(child.value("name"));
+        if (names.empty()) return;
+        std::erase_if(bsdf.children, [&](const Element& child) {
+            return is_property_tag(child.tag) &&
+                   std::find(names.begin(), names.end(), child.value("name")) != names.end();
+        });
+    }
+
+    void order_shape(Element& shape)
+    {
+        if (folded(shape.written_type()) == "parallelogram") order_parallelogram(shape);
+        const auto map = std::find_if(shape.children.begin(), shape.children.end(),
+                                      [](const Element& child) { return map_kind(child) != MapKind::none; });
+        if (map == shape.children.end()) return;
+        Element taken = std::move(*map);
+        const MapKind kind = map_kind(taken);
+        shape.children.erase(map);
+        const auto bsdf =
+            std::find_if(shape.children.begin(), shape.children.end(),
+                         [](const Element& child) { return child.tag == "bsdf" || child.tag == "ref"; });
+        if (bsdf == shape.children.end())
+            shape.children.push_back(mapped(made_object(shape, "bsdf", "diffuse"), std::move(taken), kind));
+        else
+            *bsdf = mapped(std::move(*bsdf), std::move(taken), kind);
+    }
+
+    // A rectangle of width and height 1 around 0, with +z in front, goes to origin + s u + t v.
+    void order_parallelogram(Element& shape)
+    {
+        const auto origin = take_vector(shape, "origin"), u = take_vector(shape, "u"),
+                   v = take_vector(shape, "v");
+        if (!origin || !u || !v) return;
+        const Vec3d normal = cross(*u, *v);
+        if (!(length_squared(normal) > 0.0)) {
+            diagnostics_.error(shape.place(), "u and v of a parallelogram must not be parallel");
+            return;
+        }
+        const Vec3d n = normalize(normal);
+        const Vec3d center = *origin + 0.5 * *u + 0.5 * *v;
+        Element matrix = made_object(shape, "matrix", "");
+        set_attribute(matrix, "value",
+                      fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} 0 0 0 1", u->x, v->x, n.x, center.x,
+                                  u->y, v->y, n.y, center.y, u->z, v->z, n.z, center.z));
+        if (Element* given = child_named(shape, "toWorld"); given && given->tag == "transform") {
+            given->children.insert(given->children.begin(), std::move(matrix));
+            return;
+        }
+        Element transform = made_object(shape, "transform", "");
+        set_attribute(transform, "name", "toWorld");
+        transform.children.push_back(std::move(matrix));
+        shape.children.push_back(std::move(transform));
+    }
+
+    std::optional<Vec3d> take_vector(Element& shape, std::string_view name)
+    {
+        Element* child = child_named(shape, name);
+        const Attribute* value = child ? child->attribute("value") : nullptr;
+        if (!value) {
+            diagnostics_.error(shape.place(),
+                               fmt::format("a parallelogram needs a parameter '{0}': <{1} name=\"{0}\" "
+                                           "value=\"0 0 0\"/>",
+                                           name, name == "origin" ? "point" : "vector"));
+            return {};
+        }
+        const auto numbers = read_numbers(*child, *value, {3}, diagnostics_);
+        shape.children.erase(shape.children.begin() + (child - shape.children.data()));
+        if (!numbers) return {};
+        return Vec3d((*numbers)[0], (*numbers)[1], (*numbers)[2]);
+    }
+
+    // The image or the colour of a texture inside an environment is the environment's.
+    static void order_environment(Element& emitter)
+    {
+        const auto texture = std::find_if(emitter.children.begin(), emitter.children.end(),
+                                          [](const Element& child) { return child.tag == "texture"; });
+        if (texture == emitter.children.end()) return;
+        for (const char* name : {"filename", "filepath", "value"}) {
+            Element* given = child_named(*texture, name);
+            if (!given || (given->tag != "string" && given->tag != "color")) continue;
+            Element moved = std::move(*given);
+            emitter.children.erase(texture);
+            rename_attribute_value(moved, "name", moved.tag == "color" ? "radiance" : "filename");
+            emitter.children.push_back(std::move(moved));
+            return;
+        }
+    }
+
+    // Who says where the fall-off starts means pbrt's.
+    static void order_spot(Element& emitter)
+    {
+        const Element* beam = child_named(emitter, "beamWidth");
+        if (beam && folded(beam->written_name()).find("falloff") != std::string::npos &&
+            !child_named(emitter, "falloff"))
+            emitter.children.push_back(made_parameter(emitter, "string", "falloff", "quartic"));
+    }
+
+    Diagnostics& diagnostics_;
+};
+
+} // namespace
+
+void order_forks(Element& root, Diagnostics& diagnostics)
+{
+    Order(diagnostics).visit(root);
+}
+
+} // namespace plumb
