@@ -373,7 +373,11 @@ TEST_CASE("a scene asks for layers itself", "[unit][aov]")
 // What mean_NAME is of: all samples, whatever they see.
 TEST_CASE("means over all samples count what sees nothing as 0", "[unit][aov]")
 {
-    const Rendered half(wall(2.f, -1.f, red), 40.f, 256);
+    // The wall ends in the middle of the view's pixel column.
+    const Rendered half("<shape type='rectangle'><point name='center' value='5,0,1'/>"
+                        "<float name='width' value='9.9'/><float name='height' value='9'/>"
+                        "<vector name='normal' value='0,0,-1'/></shape>",
+                        90.f, 256);
     Rendered::each([&](int x, int y) {
         const float coverage = half.at(x, y, "coverage.A");
         CHECK_THAT(half.at(x, y, "mean_depth.T"),
@@ -381,7 +385,7 @@ TEST_CASE("means over all samples count what sees nothing as 0", "[unit][aov]")
         CHECK_THAT(half.at(x, y, "mean_uv.U"),
                    WithinAbs(static_cast<double>(half.at(x, y, "uv.U") * coverage), 1e-4));
         CHECK_THAT(half.at(x, y, "mean_object.I"), WithinAbs(static_cast<double>(coverage), 1e-4));
-        CHECK_THAT(half.at(x, y, "mean_position.Z"), WithinAbs(2.0 * static_cast<double>(coverage), 1e-4));
+        CHECK_THAT(half.at(x, y, "mean_position.Z"), WithinAbs(static_cast<double>(coverage), 1e-4));
     });
 }
 
