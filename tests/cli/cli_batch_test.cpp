@@ -92,8 +92,7 @@ TEST_CASE("the exit code of batch is the worst of its verdicts", "[cli][batch]")
     const RunResult error = directory.batch(same + few + dark + missing);
     CHECK(error.exit_code == 1);
     CHECK_THAT(error.out, ContainsSubstring("error: scene file 'none.xml' does not exist\n"));
-    CHECK_THAT(error.out,
-               ContainsSubstring("1 passes, 1 differs, 1 undecided, 1 error; 3 up to date"));
+    CHECK_THAT(error.out, ContainsSubstring("1 passes, 1 differs, 1 undecided, 1 error; 3 up to date"));
     // A limit alone decides where that is asked for.
     const std::string limit =
         "<render scene=\"dark.xml\" spp=\"64\" reference=\"ref/scene.exr\" no-verdict=\"true\" max=\"";
