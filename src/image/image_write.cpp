@@ -29,13 +29,14 @@ struct Format {
     bool keeps_all; // channels beyond red, green and blue; and that an image is a part of a larger one
     std::string_view compression;
     std::string_view fast_compression = compression;
+    bool not_in_all_modules = false;
 };
 
 constexpr Format formats[] = {
     {".exr", Encoding::linear_float, true, "zip", "rle"},
     {".hdr", Encoding::linear_float, false, ""},
-    {".tif", Encoding::linear_float, false, "zip"},
-    {".tiff", Encoding::linear_float, false, "zip"},
+    {".tif", Encoding::linear_float, false, "zip", "zip", true},
+    {".tiff", Encoding::linear_float, false, "zip", "zip", true},
     {".png", Encoding::srgb_8bit, false, ""},
     {".jpg", Encoding::srgb_8bit, false, "jpeg:95"},
     {".jpeg", Encoding::srgb_8bit, false, "jpeg:95"},
@@ -56,6 +57,17 @@ const Format& format_of(const std::filesystem::path& path)
     }
     if (extension.empty()) fail(path, fmt::format("the name has no extension; known are {}", known));
     fail(path, fmt::format("unknown extension '{}'; known are {}", path.extension().string(), known));
+}
+
+void check_module_writes(const std::filesystem::path& path, const Format& format)
+{
+    if (!format.not_in_all_modules) return; // else the module would be loaded where nothing is written yet
+    const ImageModule& module = image_module();
+    try {
+        module.check_written_format(path.string());
+    } catch (const Error& error) {
+        fail(path, error.what());
+    }
 }
 
 // Layers go into formats that hold any channel. They come last.
@@ -117,7 +129,7 @@ void check_image_path(const std::filesystem::path& path)
     if (!path.has_filename()) fail(path, "no file name");
     std::error_code error;
     if (std::filesystem::is_directory(path, error)) fail(path, "a directory of that name exists");
-    format_of(path);
+    check_module_writes(path, format_of(path));
     const std::filesystem::path end = end_of_links(path);
     const std::filesystem::path directory = end.has_parent_path() ? end.parent_path() : ".";
     if (!std::filesystem::exists(directory, error))
