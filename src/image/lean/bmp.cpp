@@ -12,6 +12,10 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstdlib>
+#include <limits>
+#include <memory>
+#include <new>
 
 namespace plumb::lean {
 
@@ -86,13 +90,20 @@ Header read_header(ByteReader& reader)
     return header;
 }
 
+struct Free {
+    void operator()(void* memory) const { std::free(memory); }
+};
+using Numbers = std::unique_ptr<unsigned char[], Free>;
+
 // The numbers of the colours, encoded in runs [1]. What is skipped is 0.
-std::vector<unsigned char> read_encoded(ByteReader& reader, const Header& header)
+Numbers read_encoded(ByteReader& reader, const Header& header)
 {
     const auto width = static_cast<std::size_t>(header.width);
     const auto height = static_cast<std::size_t>(header.height);
     const bool halves = header.compression == rle4;
-    std::vector<unsigned char> pixels(width * height);
+    // A broken file may claim any size: memory that is not touched costs nothing.
+    Numbers pixels(static_cast<unsigned char*>(std::calloc(width, height)));
+    if (!pixels) throw std::bad_alloc();
     std::size_t x = 0;
     std::size_t y = 0; // from the bottom
     const auto set = [&](unsigned char value) {
@@ -125,13 +136,16 @@ std::vector<unsigned char> read_encoded(ByteReader& reader, const Header& header
     }
 }
 
-// A channel of a pixel of 16 bits, from as many bits as its mask has to 8.
+// A channel of a pixel of 16 bits: its bits, repeated until there are 8.
 unsigned char masked(unsigned pixel, unsigned mask)
 {
-    if (mask == 0) return 0;
-    const unsigned largest = mask >> std::countr_zero(mask);
+    const auto bits = static_cast<unsigned>(std::popcount(mask));
+    if (bits == 0) return 0;
     const unsigned value = (pixel & mask) >> std::countr_zero(mask);
-    return static_cast<unsigned char>((value * 255ull + largest / 2) / largest);
+    unsigned long long repeated = 0;
+    unsigned count = 0;
+    for (; count < 8; count += bits) repeated = repeated << bits | value;
+    return static_cast<unsigned char>(repeated >> (count - 8));
 }
 
 void set_color(const Header& header, unsigned index, unsigned char* out, std::size_t channels)
@@ -181,13 +195,12 @@ Raster read_bmp(const std::string& name)
     const std::size_t row_size = (width * header.bits + 31) / 32 * 4;
     reader.go_to(header.pixels_at);
     const bool encoded = header.compression == rle8 || header.compression == rle4;
-    const std::vector<unsigned char> pixels =
-        encoded ? read_encoded(reader, header) : std::vector<unsigned char>();
+    const Numbers numbers = encoded ? read_encoded(reader, header) : nullptr;
     for (int line = 0; line < header.height; ++line) {
         unsigned char* const out = raster.row(header.from_top ? line : header.height - 1 - line);
         if (!encoded) decode_row(header, reader.take(row_size), out, channels);
         for (std::size_t x = 0; encoded && x < width; ++x)
-            set_color(header, pixels[static_cast<std::size_t>(line) * width + x], out + x * channels,
+            set_color(header, numbers[static_cast<std::size_t>(line) * width + x], out + x * channels,
                       channels);
     }
     return raster;

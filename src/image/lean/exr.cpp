@@ -83,13 +83,13 @@ void read_exr_words(const std::string& name, const ChooseChannels& choose, const
         }
         const auto width = static_cast<std::size_t>(image.data.width);
         const std::size_t channels = input.channels.size();
-        std::vector<std::uint32_t> words(width * channels *
-                                         static_cast<std::size_t>(std::min(rows_at_once, image.data.height)));
+        const auto words = std::make_unique_for_overwrite<std::uint32_t[]>(
+            width * channels * static_cast<std::size_t>(std::min(rows_at_once, image.data.height)));
         std::vector<std::uint32_t> row(width * chosen.size());
         for (int top = 0; top < image.data.height; top += rows_at_once) {
             const int end = std::min(top + rows_at_once, image.data.height);
-            input.read_rows(top, end - top, types, words.data());
-            const std::uint32_t* pixel = words.data();
+            input.read_rows(top, end - top, types, words.get());
+            const std::uint32_t* pixel = words.get();
             for (int y = top; y < end; ++y) {
                 std::uint32_t* out = row.data();
                 for (std::size_t x = 0; x < width; ++x, pixel += channels)

@@ -122,7 +122,7 @@ void colors_of_inks(const unsigned char* inks, std::size_t pixels, unsigned char
 {
     for (std::size_t i = 0; i < pixels; ++i, inks += 4, out += 3)
         for (std::size_t c = 0; c < 3; ++c)
-            out[c] = static_cast<unsigned char>(unsigned{inks[c]} * unsigned{inks[3]} / 255u);
+            out[c] = static_cast<unsigned char>((unsigned{inks[c]} * inks[3] + 127u) / 255u);
 }
 
 } // namespace

@@ -154,8 +154,8 @@ Raster read_tga(const std::string& name)
     ByteReader reader(file.all());
     const Header header = read_header(reader);
     check(header);
-    const unsigned bits = header.kind == Kind::palette ? header.entry_bits : header.bits;
-    const std::size_t channels = header.kind == Kind::grey ? 1 : bits == 32 ? 4 : 3;
+    const bool has_alpha = header.kind == Kind::color && header.bits == 32;
+    const std::size_t channels = header.kind == Kind::grey ? 1 : has_alpha ? 4 : 3;
     Raster raster = make_raster(header.width, header.height, channels, 1);
     const std::vector<Color> palette = read_palette(reader, header);
     read_pixels(reader, header, palette, raster);
