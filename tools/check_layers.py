@@ -39,7 +39,9 @@ LAYERS = [
 DOORS = {
     "Embree": (r"embree[34]?/", ["src/scene/accel*"]),
     "OpenImageIO": (r"OpenImageIO/", ["src/image/oiio/*"]),
-    "OpenEXR": (r"OpenEXR/|Imf|Iex|IlmThread", ["src/image/oiio/*.cpp"]),
+    "OpenEXR": (r"OpenEXR/|Imf|Iex|IlmThread", ["src/image/lean/exr*"]),
+    "libpng": (r"png\.h", ["src/image/lean/png.cpp"]),
+    "libjpeg": (r"(jpeglib|jerror|turbojpeg)\.h", ["src/image/lean/jpeg.cpp"]),
     "tinyobjloader": (r"tiny_?obj", ["src/shapes/obj/mtl.cpp"]),
     "pugixml": (r"pugi", ["src/scene_file/document*.cpp"]),
     "oneTBB": (r"(oneapi/)?tbb(/|\.h)", ["src/render/render*.cpp", "src/base/parallel*.cpp"]),

@@ -142,6 +142,7 @@ std::vector<std::string> sample_changes(const Metadata& then, const Metadata& no
         {"plumb:instructionSet", "the instruction set"},
         {"plumb:embree", "Embree's version"},
         {"plumb:processor", "the processor vendor"},
+        {"plumb:jpegDecoder", "the JPEG decoder"},
     };
     if (has_old_hashes(then) != has_old_hashes(now))
         return {

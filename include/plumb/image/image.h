@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Images in memory and on disk. The pixels live in an OpenImageIO ImageBuf of 32-bit floats; src/image/oiio is its
-// only user.
+// Images in memory and on disk. What reads and writes files is a library of its own, with OpenImageIO or without
+// (src/image/oiio, src/image/lean); a file whose format it lacks is an error.
 //
 // Conventions. Row 0 is the top row. Values are linear light unless a parameter says otherwise.
 
@@ -65,7 +65,8 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-// Reads any format that OpenImageIO reads. Integer formats become value / maximum; decode_srgb also undoes the sRGB
+// Reads any format that the image library reads: with OpenImageIO any that that reads, without EXR, PNG, JPEG, HDR, BMP and
+// TGA. Integer formats become value / maximum; decode_srgb also undoes the sRGB
 // curve for 8-bit and 16-bit integer formats (floating-point formats are linear). Throws Error naming the file.
 Image read_image(const std::filesystem::path& path, bool decode_srgb);
 
@@ -82,6 +83,11 @@ std::optional<ByteImage> read_byte_image(const std::filesystem::path& path);
 
 // What the 8-bit values stand for: value / 255, through the sRGB curve if asked. The same as read_image gives.
 std::array<float, 256> byte_values(bool decode_srgb);
+
+bool is_jpeg(const std::filesystem::path& path); // by what the file begins with; false if it cannot be read
+
+// What decodes JPEG, with its version: JPEG's decoders may differ in the last bit. Loads the image library.
+std::string jpeg_decoder();
 
 // Channels of a rendered image that do not say how it looks: those of layers, "variance.R" or "normal.X", and "contributing".
 inline bool is_layer_channel(const std::string& name)
@@ -103,7 +109,7 @@ void write_image(const std::filesystem::path& path, const Image& image, float ex
 // Throws Error if `path` cannot be written: unknown extension, missing or read-only directory, a directory of that name.
 void check_image_path(const std::filesystem::path& path);
 
-// What images take: OpenImageIO and some 260 libraries below it, which take a quarter of a second to load. The first
+// What images take: with Debian's OpenImageIO some 260 libraries, which take a quarter of a second to load. The first
 // image that is made, read or written waits for them; one of these loads them meanwhile.
 class ImageLibrary {
 public:

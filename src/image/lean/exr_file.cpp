@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "image/lean/exr_file.h"
 
+#include "image/image_limits.h"
+
 #include <Iex.h>
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
@@ -47,10 +49,12 @@ bool ExrInput::Stream::read(char bytes[], int count)
 ExrInput::ExrInput(const std::string& name) : stream_((start_threads(), name)), file_(stream_)
 {
     const Imf::Header& header = file_.header(0);
+    const Imf::Header& header = file_.header(0);
     if (header.hasType() && Imf::isDeepData(header.type()))
         throw Error("images with deep pixels are not supported");
     windows = windows_of(header);
     channels = channels_of(header);
+    check_size(windows.data, channels.size());
     part_ = std::make_unique<Imf::InputPart>(file_, 0);
 }
 
