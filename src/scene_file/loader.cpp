@@ -34,9 +34,9 @@ double seconds_since(Clock::time_point start)
 std::vector<InputFile> input_files(const Expansion& expansion, const std::vector<std::filesystem::path>& read)
 {
     std::vector<InputFile> files;
-    for (const auto& file : expansion.files) files.push_back({file->path()});
+    for (const auto& file : expansion.files) files.push_back({file->path(), {}});
     const std::size_t first = files.size();
-    for (const std::filesystem::path& file : read) files.push_back({file});
+    for (const std::filesystem::path& file : read) files.push_back({file, {}});
     parallel_for(files.size(), 0, [&](std::size_t i) {
         files[i].hash = i < first ? sha256(expansion.files[i]->text()) : sha256_of_file(read[i - first]);
         files[i].is_jpeg = i >= first && is_jpeg(read[i - first]);

@@ -23,6 +23,9 @@ install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs/" TYPE DOC COMPONENT renderer)
 
 if(TARGET renderer)
   install(TARGETS renderer RUNTIME COMPONENT renderer)
+  # In the Python distribution (pyproject.toml), from where Python's packages are.
+  install(TARGETS renderer plumb_images DESTINATION plumb/bin COMPONENT wheel EXCLUDE_FROM_ALL)
+  install(FILES "${PROJECT_SOURCE_DIR}/src/python/plumb_renderer.py" DESTINATION . COMPONENT wheel EXCLUDE_FROM_ALL)
   install(PROGRAMS "${PROJECT_SOURCE_DIR}/tools/slurm/render" TYPE BIN RENAME renderer-slurm COMPONENT renderer)
 
   # What the program prints of itself. For another processor it cannot be run here, unless it is emulated.
