@@ -10,6 +10,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <fstream>
 #include <set>
 #include <thread>
 
@@ -143,7 +144,9 @@ TEST_CASE("a signal ends a rendering with image and checkpoint", "[cli][checkpoi
                                               "--checkpoint c.exr --checkpoint-every 0.01s --resume\n"));
     CHECK(text(header(directory / "a.exr"), "plumb:stop") == "it was interrupted");
     CHECK(text(header(directory / "a.exr"), "compression") == "rle"); // quickly
-    REQUIRE(directory.run({"rerun", "a.exr", "-o", "same.exr"}).exit_code == 0);
+    const RunResult same = directory.run({"rerun", "a.exr", "-o", "same.exr"});
+    CHECK(same.err == "");
+    REQUIRE(same.exit_code == 0);
     CHECK(read_bytes(directory / "same.exr") == read_bytes(directory / "a.exr"));
     Names again = words;
     again.emplace_back("--resume");
@@ -355,4 +358,41 @@ TEST_CASE("a signal that nohup ignores stays ignored", "[cli][checkpoint]")
                          "--checkpoint c.exr --checkpoint-every 0.01s",
                          PLUMB_RENDERER};
     CHECK(run_and_signal(directory, words, {SIGHUP, SIGTERM}).exit_code == 128 + SIGTERM);
+}
+
+TEST_CASE("parts of processors of different vendors are merged with --mixed", "[cli][merge]")
+{
+    const SceneDirectory directory;
+    const auto part = [&](const std::string& which, const std::string& file) {
+        return directory.run({"scene.xml", "--part", which, "-o", file, "--quiet"}).exit_code;
+    };
+    REQUIRE(part("1/2", "p1.exr") == 0);
+    REQUIRE(part("2/2", "p2.exr") == 0);
+    REQUIRE(directory.run({"merge", "p1.exr", "p2.exr", "-o", "same.exr", "--quiet"}).exit_code == 0);
+    const std::string here = text(header(directory / "same.exr"), "plumb:processor");
+    const std::string there = here == "GenuineIntel" ? "AuthenticAMD" : "GenuineIntel";
+    const std::string both = here < there ? here + ", " + there : there + ", " + here;
+    StateFile second = read_state(directory / "p2.exr");
+    for (auto& [name, value] : second.header)
+        if (name == "plumb:processor") value = there;
+    const std::vector<unsigned char> bytes = encode_state(second.state, second.resolution, second.header);
+    std::ofstream(directory / "p2.exr", std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+
+    const RunResult refused = directory.run({"merge", "p1.exr", "p2.exr", "-o", "a.exr"});
+    CHECK(refused.exit_code == 1);
+    CHECK(refused.err == "error: 'p1.exr' and 'p2.exr' are not parts of one image: the processor vendor was " + here +
+                             " and is " + there +
+                             "; pass --mixed to merge them without the promise of equal bits\n");
+    CHECK_FALSE(is_there(directory / "a.exr"));
+
+    for (const bool first : {true, false}) {
+        const Names parts = first ? Names{"p1.exr", "p2.exr"} : Names{"p2.exr", "p1.exr"};
+        REQUIRE(directory.run({"merge", parts[0], parts[1], "--mixed", "-o", "mixed.exr", "--quiet"}).exit_code == 0);
+        CHECK(text(header(directory / "mixed.exr"), "plumb:processor") == both);
+        CHECK(directory.run({"compare", "mixed.exr", "same.exr", "--no-verdict", "--max", "max=0"}).exit_code == 0);
+    }
+    // What is mixed stays so.
+    REQUIRE(directory.run({"merge", "p1.exr", "p2.exr", "--mixed", "--checkpoint", "both.exr"}).exit_code == 0);
+    CHECK(directory.run({"scene.xml", "--checkpoint", "both.exr", "--resume", "-o", "b.exr"}).exit_code == 1);
 }
