@@ -25,7 +25,7 @@ bool is_there(const std::filesystem::path& path)
 
 } // namespace
 
-TEST_CASE("a rendering that is gone on from gives the same file", "[cli][checkpoint]")
+TEST_CASE("a resumed rendering gives the same file", "[cli][checkpoint]")
 {
     const SceneDirectory directory;
     REQUIRE(directory.run({"scene.xml", "-o", "whole.exr", "--spp", "50"}).exit_code == 0);
@@ -215,7 +215,7 @@ TEST_CASE("parts make the image, whatever the order and the grouping", "[cli][me
         0);
     CHECK(read_bytes(directory / "b.exr") == read_bytes(directory / "whole.exr"));
 
-    // The whole can be gone on from.
+    // The whole can be resumed.
     REQUIRE(directory.run({"scene.xml", "-o", "whole.exr", "--spp", "12"}).exit_code == 0);
     REQUIRE(directory.run({"scene.xml", "-o", "c.exr", "--spp", "12", "--checkpoint", "all.exr", "--resume"})
                 .exit_code == 0);
@@ -289,7 +289,7 @@ TEST_CASE("what does not go with checkpoints and parts", "[cli][merge]")
           "error: merge needs -o,--output IMAGE, or --checkpoint FILE to merge the result with more parts\n");
 }
 
-TEST_CASE("work from before the scene language changed is neither gone on from nor merged", "[cli][merge]")
+TEST_CASE("work from before the scene language changed is neither resumed nor merged", "[cli][merge]")
 {
     const SceneDirectory directory;
     REQUIRE(directory.run({"scene.xml", "-o", "a.exr", "--checkpoint", "c.exr", "--quiet"}).exit_code == 0);
