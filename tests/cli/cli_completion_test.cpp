@@ -52,7 +52,8 @@ TEST_CASE("words are completed by what may stand there", "[cli][completion]")
     CHECK(words_of(complete({"s.xml", "--part-by", ""})) == Words{"tiles", "samples"});
     CHECK(words_of(complete({"s.xml", "--part-by=t"})) == Words{"--part-by=tiles"});
     CHECK(words_of(complete({"s.xml", "--part-by", "=", "t"})) == Words{"--part-by=tiles"});
-    CHECK(words_of(complete({"s.xml", "--aov", "albedo,dep"})) == Words{"albedo,depth", "albedo,depth_behind", "albedo,depth_z"});
+    CHECK(words_of(complete({"s.xml", "--aov", "albedo,dep"})) ==
+          Words{"albedo,depth", "albedo,depth_behind", "albedo,depth_z"});
     CHECK(words_of(complete({"schema", ""})) == Words{"rng", "xsd"});
     CHECK(words_of(complete({"completion", "f"})) == Words{"fish"});
     CHECK(words_of(complete({"help", "ag"})) == Words{"agree"});

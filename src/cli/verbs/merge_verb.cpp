@@ -78,9 +78,10 @@ OptionTable<Options> table()
         {outputs_option<Options>(), json_option<Options>(), checkpoint_option<Options>(),
          switch_option<Options>(Topic::state, "--allow-missing", "merge even if samples are missing",
                                 &Options::allow_missing),
-         switch_option<Options>(Topic::state, "--mixed",
-                                "merge parts of Intel's and AMD's processors, without\nthe promise of equal bits",
-                                &Options::mixed),
+         switch_option<Options>(
+             Topic::state, "--mixed",
+             "merge parts of Intel's and AMD's processors, without\nthe promise of equal bits",
+             &Options::mixed),
          quiet_option<Options>(), help_option<Options>()});
 }
 
