@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: MIT
 # shellcheck shell=bash
+# shellcheck disable=SC2154
 # Sourced after setup.sh by the scripts that need a bare Debian in a directory. They set
 #   release      a release of Debian, such as trixie
 #   directory    where the system is
 #   tree         in it, the directory of the copy of the tree
 
 cannot() { say "cannot be done in Debian $release: $*"; exit 77; }
-
 
 # Where this system's apt gets Debian from. Not from the archive of security updates, which has only those.
 debian_mirror() {

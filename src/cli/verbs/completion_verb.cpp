@@ -101,7 +101,7 @@ struct CompletionVerb {
     static Verb make()
     {
         Verb verb = make_verb<VerbOptions>(
-            {"completion", "bash|zsh|fish", "print what makes a shell complete commands", "shell", 1, 1,
+            {"completion", "bash|zsh|fish", "print the completion of a shell", "shell", 1, 1,
              "Prints a script that makes the shell complete verbs, options, their values\n"
              "and names of types:\n"
              "\n"

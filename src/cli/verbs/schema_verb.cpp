@@ -29,7 +29,7 @@ struct SchemaVerb {
     static Verb make()
     {
         return make_verb<VerbOptions>(
-            {"schema", "[rng|xsd]", "print a schema of scene files, for editors", "schema language", 0, 1,
+            {"schema", "[rng|xsd]", "print a schema of scenes for editors", "schema language", 0, 1,
              "Prints a schema of Plumb's scene language: RELAX NG (rng, the default) or W3C\n"
              "XML Schema (xsd). An editor completes and checks elements, types, parameters\n"
              "and the syntax of values with it:\n"
