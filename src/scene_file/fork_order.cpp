@@ -85,6 +85,30 @@ public:
         if (kind == "emitter" && type == "spot") order_spot(element);
     }
 
+    // What surrounds all is said to stand in a sphere around all.
+    void take_environments_out(Element& root)
+    {
+        std::vector<Element> kept;
+        kept.reserve(root.children.size());
+        for (Element& child : root.children) {
+            const auto is_environment = [](const Element& inner) {
+                return inner.tag == "emitter" && inner.value("type") == "environment";
+            };
+            const auto found = std::find_if(child.children.begin(), child.children.end(), is_environment);
+            if (kind_of_tag(child.tag) != "shape" || found == child.children.end()) {
+                kept.push_back(std::move(child));
+                continue;
+            }
+            diagnostics_.warning(child.place(),
+                                 fmt::format("the {} around an environment is left out: the light of an "
+                                             "environment comes from infinitely far away",
+                                             child.written_type()));
+            Element emitter = std::move(*found);
+            kept.push_back(std::move(emitter));
+        }
+        root.children = std::move(kept);
+    }
+
 private:
     // First all scales, then all shifts.
     static void merge_uv(Element& texture)
@@ -204,13 +228,36 @@ private:
         }
     }
 
-    // Who says where the fall-off starts means pbrt's.
-    static void order_spot(Element& emitter)
+    // Who says where the fall-off starts means pbrt's. Where it does not, there is none.
+    void order_spot(Element& emitter)
     {
+        Element* start = child_named(emitter, "falloff");
+        if (start && start->tag == "float" && angle_of_cosine(*start, diagnostics_))
+            rename_attribute_value(*start, "name", "beamWidth");
+        limit_beam(emitter);
         const Element* beam = child_named(emitter, "beamWidth");
         if (beam && folded(beam->written_name()).find("falloff") != std::string::npos &&
             !child_named(emitter, "falloff"))
             emitter.children.push_back(made_parameter(emitter, "string", "falloff", "quartic"));
+    }
+
+    // Forks say 50 degrees for the start of a fall-off that ends at 30.
+    void limit_beam(Element& emitter)
+    {
+        Element* beam = child_named(emitter, "beamWidth");
+        const Element* cutoff = child_named(emitter, "cutoffAngle");
+        if (!beam || !cutoff || beam->written_name() == beam->value("name")) return;
+        const Attribute *from = beam->attribute("value"), *to = cutoff->attribute("value");
+        if (!from || !to) return;
+        Diagnostics ignored; // whoever builds it reports it
+        const auto begin = read_number(*beam, *from, ignored), end = read_number(*cutoff, *to, ignored);
+        if (!begin || !end || *begin <= *end) return;
+        diagnostics_.warning(
+            beam->value_place(*from),
+            fmt::format("the light would fall off from {} degrees on, but ends at {}; it does "
+                        "not fall off",
+                        *begin, *end));
+        set_attribute(*beam, "value", fmt::format("{}", *end));
     }
 
     Diagnostics& diagnostics_;
@@ -220,7 +267,9 @@ private:
 
 void order_forks(Element& root, Diagnostics& diagnostics)
 {
-    Order(diagnostics).visit(root);
+    Order order(diagnostics);
+    order.visit(root);
+    order.take_environments_out(root);
 }
 
 } // namespace plumb

@@ -4,6 +4,7 @@
 #include "scene_file/mitsuba06_words.h"
 #include "scene_file/mitsuba_values.h"
 
+#include <algorithm>
 #include <charconv>
 
 #include <fmt/format.h>
@@ -402,7 +403,13 @@ constexpr Vocabulary mitsuba3 = {.name = "mitsuba3",
 
 bool is_mitsuba_scene(const Element& root)
 {
-    return root.tag == "scene" && root.attribute("version") && !root.attribute("dialect");
+    if (root.tag != "scene" || !root.attribute("version") || root.attribute("dialect")) return false;
+    // Forks of Nori write a version, too; but Mitsuba has no <camera> and no <mesh>.
+    const auto has = [&](std::string_view tag) {
+        return std::any_of(root.children.begin(), root.children.end(),
+                           [&](const Element& child) { return child.tag == tag; });
+    };
+    return has("sensor") || !(has("camera") || has("mesh"));
 }
 
 const Vocabulary* mitsuba_vocabulary_named(std::string_view name)

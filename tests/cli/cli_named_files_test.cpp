@@ -120,15 +120,34 @@ TEST_CASE("a file of that name in other letters, or elsewhere, is suggested", "[
         suggests(beside, "data/" + file, "Data/" + file);
         suggests(beside, "DATA\\" + file, "Data/" + file);
         suggests(here, "data/" + file, "../Data/" + file);
-        // Of a path on somebody else's computer the file's name is left.
-        const Files flat("scenes/");
-        flat.write("scenes/" + file, read_bytes(flat / ("scenes/" + parameter.file)));
-        suggests(flat, "C:\\Users\\me\\" + file, file);
-        suggests(flat, "/nobody/course/" + file, file);
     }
     const Files files("scenes/");
     CHECK_THAT(files.check(parameters[0], "none.obj").err,
                ContainsSubstring("error: filename names a file that does not exist: 'scenes/none.obj'\n"));
+}
+
+TEST_CASE("of a path on another computer the end counts, and relative ones may start above",
+          "[cli][named_files]")
+{
+    for (const Parameter& parameter : parameters) {
+        const std::string file = parameter.file.substr(parameter.file.find('/') + 1);
+        const auto finds = [&](const Files& files, const std::string& name, const std::string& found) {
+            CAPTURE(name);
+            const RunResult result = files.check(parameter, name);
+            CHECK_THAT(result.out, ContainsSubstring("memory: "));
+            CHECK_THAT(result.err, ContainsSubstring("warning: '" + name + "' does not exist; '" + found +
+                                                     "' is read instead"));
+        };
+        const Files beside("scenes/"), here("");
+        for (const std::string& name :
+             {"C:\\Users\\me\\" + parameter.file, "/nobody/course/" + parameter.file})
+            finds(beside, name, parameter.file);
+        const Files flat("scenes/");
+        flat.write("scenes/" + file, read_bytes(flat / ("scenes/" + parameter.file)));
+        finds(flat, "D:/nori/" + parameter.file, file);
+        // As from a build directory beside.
+        finds(here, "../../" + parameter.file, "../" + parameter.file);
+    }
 }
 
 TEST_CASE("scenes of suites, and scenes on the command line, have the same way out", "[cli][named_files]")
