@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::string_view vacuum = "Plumb renders surfaces in a vacuum only";
 constexpr std::string_view as_mesh = "export it as a mesh";
-constexpr std::string_view as_envmap = "render it to an image and use 'envmap'";
+constexpr std::string_view as_envmap = "tools/bake_sky makes an 'envmap' and a 'directional' light of it";
 constexpr std::string_view same_light =
     "this is rendered by 'path', which finds the same light up to noise (path_mis in 'renderer types')";
 
@@ -334,7 +334,8 @@ constexpr Refusal refusals[] = {
     {"shape", "ellipsoids", as_mesh},
     {"shape", "ellipsoidsmesh", as_mesh},
     {"bsdf", "hair", "use 'principled'"},
-    {"bsdf", "measured", "use 'principled'"},
+    {"bsdf", "measured", "use 'principled', or 'roughconductor' with a material"},
+    {"bsdf", "measured_polarized", "use 'principled', or 'roughconductor' with a material"},
     {"bsdf", "polarizer", "Plumb's light is not polarised"},
     {"bsdf", "retarder", "Plumb's light is not polarised"},
     {"bsdf", "circular", "Plumb's light is not polarised"},
@@ -342,7 +343,7 @@ constexpr Refusal refusals[] = {
     {"emitter", "sunsky", as_envmap},
     {"emitter", "timed_sunsky", as_envmap},
     {"emitter", "sky", as_envmap},
-    {"emitter", "directionalarea", "use 'directional'"},
+    {"emitter", "directionalarea", "use 'projector' or 'spot' with a small angle, or 'directional'"},
     {"texture", "volume", vacuum},
     {"camera", "irradiancemeter", "use 'perspective'"},
     {"camera", "radiancemeter", "use 'perspective' with a small fov"},
