@@ -78,6 +78,13 @@ public:
         : words_(words), options_(options), diagnostics_(diagnostics)
     {}
 
+    // Recursion ends: parse_document().
+    void collect_bsdfs(const Element& element)
+    {
+        if (element.tag == "bsdf" && !element.value("id").empty()) bsdfs_.insert(element.value("id"));
+        for (const Element& child : element.children) collect_bsdfs(child);
+    }
+
     // Recursion ends: parse_document(). false: left out.
     bool object(Element& element)
     {
@@ -100,6 +107,9 @@ private:
         if (words_.syntax && !words_.syntax(child, diagnostics_)) return false;
         if (!rename_tag_of(child)) return false;
         if (is_property_tag(child.tag)) return operations(child) && rename_parameter(child, kind, type);
+        // The name of what is no texture says nothing: <ref name="bsdf" id="wood"/>.
+        if (child.tag == "ref" && bsdfs_.contains(child.value("id")))
+            std::erase_if(child.attributes, [](const Attribute& a) { return a.name == "name"; });
         if ((child.tag == "texture" || child.tag == "ref") && child.attribute("name") &&
             !rename_parameter(child, kind, type))
             return false;
@@ -315,6 +325,7 @@ private:
     const ArrangeOptions& options_;
     Diagnostics& diagnostics_;
     std::set<std::pair<const TextFile*, std::string_view>> refused_; // once is enough
+    std::set<std::string, std::less<>> bsdfs_;                       // their ids
 };
 
 } // namespace
@@ -322,7 +333,9 @@ private:
 Element arrange(Element root, const Vocabulary& words, const ArrangeOptions& options,
                 Diagnostics& diagnostics)
 {
-    Arranger(words, options, diagnostics).object(root);
+    Arranger arranger(words, options, diagnostics);
+    arranger.collect_bsdfs(root);
+    arranger.object(root);
     for (const Vocabulary* from = &words; from; from = from->base)
         if (from->order) {
             from->order(root, diagnostics);

@@ -255,6 +255,7 @@ judged_by_quadrature("box-quadrature", "Phong 30 through a wide box",
 # --- Files of Mitsuba ---------------------------------------------------------------------------------------------
 
 SCENES += [
+    MitsubaFile("file-blender", "As the add-on mitsuba-blender writes scenes: named references, painted vertices"),
     MitsubaFile("file-metals", "Metals by name and by index, anisotropic GGX, rough plastic"),
     MitsubaFile("file-principled", "Disney's BSDF in a turned environment map"),
     MitsubaFile("file-sheets", "Mask with a checkerboard, thin glass, a blend, nothing"),
