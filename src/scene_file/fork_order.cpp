@@ -83,6 +83,7 @@ public:
         if (kind == "shape") order_shape(element);
         if (kind == "emitter" && type == "environment") order_environment(element);
         if (kind == "emitter" && type == "spot") order_spot(element);
+        if (kind == "camera") order_camera(element);
     }
 
     // What surrounds all is said to stand in a sphere around all.
@@ -226,6 +227,23 @@ private:
             emitter.children.push_back(std::move(moved));
             return;
         }
+    }
+
+    // A switch of the lens.
+    void order_camera(Element& camera)
+    {
+        constexpr std::string_view names[] = {"dof", "usedof", "enabledof", "depthoffield"};
+        const auto is_switch = [&](const Element& child) {
+            return child.tag == "boolean" && std::find(std::begin(names), std::end(names),
+                                                       folded(child.value("name"))) != std::end(names);
+        };
+        const auto found = std::find_if(camera.children.begin(), camera.children.end(), is_switch);
+        const Attribute* value = found == camera.children.end() ? nullptr : found->attribute("value");
+        if (!value) return;
+        const bool is_on = read_boolean(*found, *value, diagnostics_).value_or(true);
+        std::erase_if(camera.children, [&](const Element& child) {
+            return is_switch(child) || (!is_on && child.value("name") == "lensRadius");
+        });
     }
 
     // Who says where the fall-off starts means pbrt's. Where it does not, there is none.

@@ -170,8 +170,10 @@ constexpr std::string_view near_diffuse = "this is rendered as 'diffuse'";
 
 constexpr TypeName types[] = {
     {"integrator", "volpath_simple", "path_mis"},
-    {"integrator", "adaptive", "adaptive", "the integrator inside it is rendered, with as many samples everywhere"},
-    {"integrator", "irrcache", "irrcache", "the integrator inside it is rendered, which finds the same light up to noise"},
+    {"integrator", "adaptive", "adaptive",
+     "the integrator inside it is rendered, with as many samples everywhere"},
+    {"integrator", "irrcache", "irrcache",
+     "the integrator inside it is rendered, which finds the same light up to noise"},
     {"integrator", "erpt", "path_mis", "this is rendered by 'path', which finds the same light up to noise"},
     {"film", "ldrfilm", "hdrfilm"},
     {"sampler", "sobol", "sobol"},
