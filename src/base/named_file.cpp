@@ -86,6 +86,7 @@ std::optional<fs::path> elsewhere(const fs::path& directory, const std::string& 
             if (const fs::path path = (directory / rest).lexically_normal(); is_file(path)) return path;
         return {};
     }
+    if (!rest.has_parent_path()) return {}; // there are many files of one name
     fs::path above = directory;
     for (int i = 0; i < levels; ++i) {
         above /= "..";

@@ -113,7 +113,7 @@ constexpr std::string_view emitter_words[] = {
 constexpr std::string_view bsdf_words[] = {
     "bsdf",    "brdf",       "material",  "disney",   "principled", "rough",      "smooth", "microfacet",
     "ggx",     "beckmann",   "conductor", "metal",    "metallic",   "dielectric", "glass",  "thin",
-    "lambert", "lambertian", "diffuse",   "textured", "texture",    "image",      "plastic"};
+    "lambert", "lambertian", "diffuse",   "textured", "texture",    "image",      "coated"};
 constexpr std::string_view camera_words[] = {"perspective", "camera", "pinhole",    "thin", "lens",  "dof",
                                              "depth",       "field",  "projective", "blur", "focus", "bokeh"};
 constexpr std::string_view sampler_words[] = {
@@ -195,7 +195,8 @@ const std::vector<Meaning>& meanings()
         {"bsdf", {"disney", "principled"}, {}, {"thin"}, {"bsdf", "", "principled", {}, "disney"}},
         {"bsdf", glasses, rough, {"thin", "diffuse"}, {"bsdf", "", "roughdielectric", {}, "roughdielectric"}},
         {"bsdf", glasses, {"thin"}, rough, {"bsdf", "", "thindielectric", {}, "thindielectric"}},
-        {"bsdf", glasses, {}, {"diffuse"}, {"bsdf", "", "dielectric", {}, "dielectric"}},
+        {"bsdf", glasses, {"diffuse", "lambert", "lambertian"}, {}, {"bsdf", "", "plastic", {}, "plastic"}},
+        {"bsdf", glasses, {}, {}, {"bsdf", "", "dielectric", {}, "dielectric"}},
         {"bsdf", metals, rough, {}, {"bsdf", "", "roughconductor", {}, "roughconductor"}},
         {"bsdf", metals, {}, {}, {"bsdf", "", "conductor", {}, "conductor"}},
         {"bsdf", {"lambert", "lambertian", "diffuse"}, {}, {}, {"bsdf", "", "diffuse", {}, "diffuse"}},

@@ -348,6 +348,7 @@ TEST_CASE("types that no table has are known by the words of their names", "[uni
              std::tuple{"bsdf", "thin_dielectric", "thindielectric"},
              std::tuple{"bsdf", "metalMaterial", "conductor"},
              std::tuple{"bsdf", "texturedDiffuse", "diffuse"},
+             std::tuple{"bsdf", "diffuseCoatedDielectric", "plastic"},
              std::tuple{"camera", "thinlens_camera_dof", "perspective"},
              std::tuple{"sampler", "halton_sequence", "sobol"},
              std::tuple{"sampler", "adaptive", "independent"},
@@ -360,7 +361,7 @@ TEST_CASE("types that no table has are known by the words of their names", "[uni
          {std::pair{"integrator", "path_miss"}, std::pair{"integrator", "albedo"},
           std::pair{"integrator", "simple2"}, std::pair{"texture", "procedural_texture"},
           std::pair{"emitter", "texturearea"}, std::pair{"emitter", "textured_area_light"},
-          std::pair{"bsdf", "difuse"}, std::pair{"bsdf", "dielectric_diffuse"},
+          std::pair{"bsdf", "difuse"}, std::pair{"bsdf", "velvet_diffuse"},
           std::pair{"sampler", "indpendent"}, std::pair{"camera", "fisheye"}, std::pair{"shape", "image"}}) {
         CAPTURE(kind, theirs);
         CHECK(becomes(kind, theirs) == theirs);

@@ -2,7 +2,7 @@
 
 // BSDFs that are made of others, and of layers, beside closed forms.
 
-#include "bsdfs/fresnel.h"
+#include "plumb/model/bsdf.h"
 #include "support/catch.h"
 #include "support/samples.h"
 #include "support/statistics.h"
