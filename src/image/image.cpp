@@ -5,6 +5,7 @@
 #include "plumb/image/image.h"
 
 #include "base/regular_file.h"
+#include "image/chromaticities.h"
 #include "image/image_file.h"
 #include "image/image_module.h"
 #include "plumb/base/error.h"
@@ -120,6 +121,35 @@ void convert_integers(const DecodedImage& image, bool decode_srgb)
     }
 }
 
+// Colours of another colour space become linear sRGB.
+void convert_colors(DecodedImage& image)
+{
+    const auto from = chromaticities_of(image.metadata);
+    const auto matrix = from ? to_srgb(*from) : std::nullopt;
+    if (!matrix) return;
+    std::size_t at[3];
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto found = std::find(image.channels.begin(), image.channels.end(), std::string(1, "RGB"[i]));
+        if (found == image.channels.end()) return; // not of colours
+        at[i] = static_cast<std::size_t>(found - image.channels.begin());
+    }
+    if (std::find(image.channels.begin(), image.channels.end(), "variance.R") != image.channels.end())
+        throw Error("its colours are not linear sRGB, and the variances beside them cannot be converted");
+    const std::size_t pixels =
+        static_cast<std::size_t>(image.data.width) * static_cast<std::size_t>(image.data.height);
+    for (std::size_t i = 0; i < pixels; ++i) {
+        float* const pixel = image.buffer->pixels() + i * image.channels.size();
+        const double color[3] = {static_cast<double>(pixel[at[0]]), static_cast<double>(pixel[at[1]]),
+                                 static_cast<double>(pixel[at[2]])};
+        for (std::size_t c = 0; c < 3; ++c)
+            pixel[at[c]] = static_cast<float>((*matrix)[3 * c] * color[0] + (*matrix)[3 * c + 1] * color[1] +
+                                              (*matrix)[3 * c + 2] * color[2]);
+    }
+    for (auto& [name, value] : image.metadata)
+        if (name == chromaticities_name)
+            value = std::vector<float>(srgb_chromaticities.begin(), srgb_chromaticities.end());
+}
+
 // read(module, name), with what it throws in our words.
 template <class Read>
 auto read_file(const std::filesystem::path& path, const Read& read)
@@ -154,7 +184,10 @@ Image read_image(const std::filesystem::path& path, bool decode_srgb)
     };
     return read_file(path, [&](const ImageModule& module, const std::string& name) {
         DecodedImage image = module.read(name);
-        if (image.integer_levels > 0) convert_integers(image, decode_srgb);
+        if (image.integer_levels > 0)
+            convert_integers(image, decode_srgb);
+        else if (decode_srgb)
+            convert_colors(image);
         return make(image);
     });
 }

@@ -4,6 +4,7 @@
 
 #include "base/lower_case.h"
 #include "base/temporary_file.h"
+#include "image/chromaticities.h"
 #include "image/image_module.h"
 #include "image/image_text.h"
 #include "plumb/base/error.h"
@@ -95,6 +96,19 @@ std::vector<std::uint8_t> encode_srgb(const Image& image, int channels, float ex
     return bytes;
 }
 
+// The header says that colours are linear sRGB, where the format has words for it.
+Metadata with_color_space(const Image& image, const Format& format)
+{
+    Metadata metadata = image.metadata;
+    const std::vector<std::string>& names = image.channel_names();
+    const bool has_colors = std::find(names.begin(), names.end(), "R") != names.end();
+    std::erase_if(metadata, [](const auto& entry) { return entry.first == chromaticities_name; });
+    if (has_colors && format.extension == ".exr")
+        metadata.emplace_back(chromaticities_name,
+                              std::vector<float>(srgb_chromaticities.begin(), srgb_chromaticities.end()));
+    return metadata;
+}
+
 // What the file will hold.
 std::vector<unsigned char> encode(const std::string& name, const Image& image, const Format& format,
                                   float exposure, Packing packing)
@@ -102,7 +116,8 @@ std::vector<unsigned char> encode(const std::string& name, const Image& image, c
     const bool is_float = format.encoding == Encoding::linear_float;
     const int channels = channels_written(image, format);
     const PixelRect& data = image.data_window();
-    ImageFile file{.name = name, .metadata = image.metadata};
+    const Metadata metadata = with_color_space(image, format);
+    ImageFile file{.name = name, .metadata = metadata};
     file.channels.assign(image.channel_names().begin(), image.channel_names().begin() + channels);
     file.data = format.keeps_all ? data : PixelRect{0, 0, data.width, data.height};
     file.full_width = format.keeps_all ? image.full_width() : data.width;

@@ -144,8 +144,9 @@ void SceneBuilder::check_property(const Element& child)
     const std::string name = child.value("name");
     if (find_ignored("scene", "", name)) return;
     if (name == "aovs" && property->tag == "string") return read_aovs(*property);
-    diagnostics_.add(context_.lenient ? Severity::warning : Severity::error, property->name_at,
-                     fmt::format("unknown parameter '{}' for <scene>; it takes 'aovs' only", name));
+    diagnostics_.unsupported(property->name_at,
+                             fmt::format("unknown parameter '{}' for <scene>; it takes 'aovs' only", name),
+                             context_.lenient);
 }
 
 // "albedo, dd.y:mean_depth".

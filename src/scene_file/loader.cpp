@@ -79,7 +79,11 @@ bool check_root(const Element& root, Diagnostics& diagnostics)
 [[noreturn]] void fail(const Diagnostics& diagnostics,
                        const std::vector<std::shared_ptr<const TextFile>>& files)
 {
-    throw SceneError(in_file_order(diagnostics.all(), files));
+    std::vector<Diagnostic> all = in_file_order(diagnostics.all(), files);
+    if (diagnostics.has_only_unsupported())
+        all.push_back(
+            {Severity::note, {}, "--lenient leaves out what is not supported, with a warning for each"});
+    throw SceneError(std::move(all));
 }
 
 } // namespace
@@ -108,6 +112,8 @@ struct SceneFile::Impl {
         if (!document || !check_root(*document, diagnostics)) fail(diagnostics, {});
         const Definitions definitions(settings.definitions.begin(), settings.definitions.end());
         is_mitsuba = is_mitsuba_scene(*document);
+        if (!is_mitsuba && !document->attribute("dialect"))
+            std::erase_if(document->attributes, [](const Attribute& a) { return a.name == "version"; });
         return is_mitsuba ? expand_mitsuba(*std::move(document), definitions, diagnostics)
                           : expand(*std::move(document), definitions, diagnostics);
     }
@@ -120,7 +126,10 @@ struct SceneFile::Impl {
         if (!words) fail(diagnostics, expansion.files);
         const Readings readings(choice.dialect, wishes);
         return arrange(std::move(expansion.root), *words,
-                       {.overrides = readings.presets(), .lenient = settings.lenient}, diagnostics);
+                       {.overrides = readings.presets(),
+                        .lenient = settings.lenient,
+                        .unset = choice.evidence.has_value()},
+                       diagnostics);
     }
 
     const Clock::time_point start = Clock::now();

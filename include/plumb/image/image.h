@@ -66,8 +66,9 @@ private:
 };
 
 // Reads any format that the image library reads: with OpenImageIO any that that reads, without EXR, PNG, JPEG, HDR, BMP and
-// TGA. Integer formats become value / maximum; decode_srgb also undoes the sRGB
-// curve for 8-bit and 16-bit integer formats (floating-point formats are linear). Throws Error naming the file.
+// TGA. Integer formats become value / maximum. decode_srgb makes linear sRGB of what are colours: it undoes the sRGB curve
+// for 8-bit and 16-bit integer formats (floating-point formats are linear), and converts the channels R, G and B of a
+// floating-point format whose attribute `chromaticities` names another colour space. Throws Error naming the file.
 Image read_image(const std::filesystem::path& path, bool decode_srgb);
 
 // An image file of 8-bit integers as it is: rows from the top, 1 or 3 channels (alpha is left out).
@@ -99,7 +100,7 @@ inline bool is_layer_channel(const std::string& name)
 // where it is noisy, and much larger where it is smooth.
 enum class Packing { small, fast };
 
-// Writes by extension: .exr (32-bit float, ZIP or, fast, RLE, data and display window), .hdr, .tif/.tiff (float), .png and .jpg
+// Writes by extension: .exr (32-bit float, ZIP or, fast, RLE, data and display window, the chromaticities of sRGB), .hdr, .tif/.tiff (float), .png and .jpg
 // (8-bit sRGB after multiplying by 2^exposure; clamped, rounded). The file appears whole or not at all: it is
 // written beside `path` and renamed. Metadata goes into formats that can hold it; so do channels of layers, which must be
 // the last ones (.exr only). Same image, same bytes.
