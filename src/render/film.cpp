@@ -6,6 +6,7 @@
 #include "plumb/base/error.h"
 #include "render/fixed_sum.h"
 #include "render/layer_sums.h"
+#include "render/share_rounding.h"
 
 #include <array>
 #include <mutex>
@@ -159,6 +160,7 @@ Image Film::develop(Channels channels) const
     for (const Layer& layer : layers())
         for (std::size_t c = 0; c < layer.components.size(); ++c) names.push_back(layer.channel(c));
     Image image(window_, full_width_, full_height_, std::move(names));
+    const std::vector<ShareFamily> families = share_families(layers());
     parallel_for(static_cast<std::size_t>(window_.height), 0, [&](std::size_t row) {
         const int y = window_.y + static_cast<int>(row);
         for (int x = window_.x; x < window_.x + window_.width; ++x) {
@@ -166,6 +168,7 @@ Image Film::develop(Channels channels) const
             float* out = image.pixel(x, y);
             for (int c = 0; c < 3; ++c) out[c] = static_cast<float>(mean(at, c));
             if (layers_) layers_->develop(at, pixels_[at].count, out + beauty);
+            for (const ShareFamily& family : families) make_shares_add_up(family, out + beauty, out);
             if (!evidence) continue;
             for (int c = 0; c < 3; ++c) out[3 + c] = static_cast<float>(variance_of_mean(at, c));
             out[6] = static_cast<float>(pixels_[at].contributing);

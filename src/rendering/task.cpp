@@ -35,6 +35,7 @@ RenderTask make_task(SceneFile& file, const RenderSettings& settings)
     task.options.seed = settings.samples.seed;
     task.options.crop = settings.view.crop;
     task.options.aovs = aovs_of(settings.view, task.scene);
+    task.options.splits = settings.view.splits;
     task.options.samples_per_pixel = render_samples(task.scene.job, task.options);
     return task;
 }

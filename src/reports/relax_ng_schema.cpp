@@ -91,8 +91,10 @@ private:
         write_words(dialect_names());
         xml_.end();
         xml_.end();
-        for (const std::string_view name : {"name", "id", "aovs"}) optional_attribute(name);
+        for (const std::string_view name : {"name", "id"}) optional_attribute(name);
         begin_content();
+        for (const std::string_view name : scene_parameters())
+            write_parameter({std::string(name), "string", {}, {}});
         for (const std::string_view tag : scene_children()) ref(fmt::format("element.{}", tag));
         end_content();
         xml_.end();

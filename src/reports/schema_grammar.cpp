@@ -3,6 +3,7 @@
 
 #include "reports/type_summary.h"
 #include "scene_file/catalog.h"
+#include "scene_file/element_manuals.h"
 #include "scene_file/nori_words.h"
 #include "scene_file/placement.h"
 
@@ -146,6 +147,12 @@ std::vector<std::string_view> scene_children()
 {
     constexpr std::string_view scene[] = {"scene"};
     return children_of(scene);
+}
+
+std::vector<std::string_view> scene_parameters()
+{
+    const ElementManual* manual = find_element_manual("scene");
+    return manual ? parameters_in(manual->text) : std::vector<std::string_view>();
 }
 
 std::vector<std::string_view> dialect_names()

@@ -59,6 +59,8 @@ std::vector<SchemaKind> schema_kinds();
 
 // The tags that may stand in <scene>.
 std::vector<std::string_view> scene_children();
+// Its own parameters, which are strings.
+std::vector<std::string_view> scene_parameters();
 // The values of its attribute `dialect`.
 std::vector<std::string_view> dialect_names();
 

@@ -21,6 +21,8 @@ public:
         for (const ValueSyntax& syntax : value_syntaxes()) write_syntax(syntax);
         const std::vector<std::string_view> dialects = dialect_names();
         write_words("dialect", {dialects.begin(), dialects.end()});
+        const std::vector<std::string_view> parameters = scene_parameters();
+        write_words("parameter.scene", {parameters.begin(), parameters.end()});
         write_scene();
         write_transform();
         write_reference("ref", {"id"}, {"name"});
@@ -61,9 +63,15 @@ private:
         xml_.begin("xs:complexType");
         begin_content();
         elements(scene_children());
+        xml_.begin("xs:element", {{"name", "string"}});
+        xml_.begin("xs:complexType");
+        attribute("name", "parameter.scene", true);
+        attribute("value", "xs:string", true);
+        xml_.end();
+        xml_.end();
         xml_.end();
         attribute("dialect", "dialect", false);
-        for (const std::string_view name : {"name", "id", "aovs"}) attribute(name, "xs:string", false);
+        for (const std::string_view name : {"name", "id"}) attribute(name, "xs:string", false);
         xml_.end();
         xml_.end();
     }

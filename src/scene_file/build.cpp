@@ -7,6 +7,7 @@
 #include "plumb/render/aovs.h"
 #include "scene_file/axis_camera.h"
 #include "scene_file/build_child.h"
+#include "scene_file/face_bsdfs.h"
 #include "scene_file/foreign_names.h"
 #include "scene_file/nori_words.h"
 #include "scene_file/placement.h"
@@ -75,10 +76,13 @@ SceneContents SceneBuilder::build_contents()
 {
     SceneContents contents;
     build_children(children_, context_, [&](std::size_t i, BuiltChild& child) {
-        if (kind_of(*children_[i]) == "shape")
+        if (kind_of(*children_[i]) == "shape") {
             contents.objects.push_back(std::move(child.object));
-        else if (child.light)
-            contents.lights.push_back(std::move(child.light));
+            return;
+        }
+        if (!child.light) return;
+        contents.lights.push_back(std::move(child.light));
+        contents.light_names.push_back(place_name(*children_[i]));
     });
     contents.instances = groups_.build(context_);
     return contents;
@@ -253,7 +257,7 @@ std::shared_ptr<const Scene> make_scene(SceneContents contents, const std::strin
 {
     return std::make_shared<const Scene>(std::move(contents.objects), std::move(contents.lights),
                                          SceneOptions{dialect.emitters_absorb, instruction_set},
-                                         std::move(contents.instances));
+                                         std::move(contents.instances), std::move(contents.light_names));
 }
 
 std::optional<RenderJob> assemble(std::shared_ptr<const Scene> scene, MethodAndView parts,

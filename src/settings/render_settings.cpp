@@ -72,6 +72,21 @@ Texts aovs_text(const S& s)
     return aovs.empty() ? Texts() : Texts{fmt::format("{}", fmt::join(aovs, ","))};
 }
 
+void set_splits(S& s, Name name, Text text)
+{
+    try {
+        s.view.splits = light_splits_from_text(parse_list(name, text));
+    } catch (const Error& problem) {
+        throw Error(fmt::format("{}: {}", name, problem.what()));
+    }
+}
+
+Texts splits_text(const S& s)
+{
+    const auto& splits = s.view.splits;
+    return splits.empty() ? Texts() : Texts{fmt::format("{}", fmt::join(to_texts(splits), ","))};
+}
+
 // "Embree instruction set: sse2, sse4.2, avx, avx2 or avx512 (default avx2)", on the processors that have these.
 std::string isa_help()
 {
@@ -115,6 +130,10 @@ std::span<const SettingRow<RenderSettings>> setting_rows<RenderSettings>()
          Effect::coverage, crop_text, [](S& s, Name n, Text t) { s.view.crop = parse_rectangle(n, t); }},
         {"aov", "NAME,...", "add layers to .exr files: albedo, normal, depth and\nothers (docs/aovs.md)",
          "the list of layers", Effect::coverage, aovs_text, set_aovs},
+        {"split", "WHAT,...",
+         "add layers to .exr files that add up to the image:\n"
+         "by depth, technique or light (docs/aovs.md)",
+         "the split of the light", Effect::coverage, splits_text, set_splits},
         {"integrator", "TYPE",
          "use this integrator instead of the scene's, with\n"
          "default parameters",

@@ -85,6 +85,14 @@ class SchemaTest(unittest.TestCase):
                 with self.subTest(type=name, language=language):
                     self.assertEqual(self.problem(language, scene), "")
 
+    def test_parameters_of_the_scene(self):
+        scene = Path(self.directory.name) / "layers.xml"
+        for name, valid in (("aovs", True), ("aov", False)):
+            scene.write_text(f'<scene><string name="{name}" value="albedo"/></scene>', encoding="utf-8")
+            for language in ("rng", "xsd"):
+                with self.subTest(name=name, language=language):
+                    self.assertEqual(self.problem(language, scene) == "", valid)
+
     def test_wrong_scenes_are_not(self):
         rejected = {"rng": 0, "xsd": 0}
         for scene in sorted((ROOT / "tests/scenes/bad").glob("*.xml")):

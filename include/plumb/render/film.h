@@ -68,7 +68,9 @@ public:
     // over n. Unbiased where samples are independent. Not a number, for unknown, below two samples.
     Color variance_of_mean(Vec2i pixel) const;
 
-    // Mean of the accepted samples; black where there is none.
+    // Mean of the accepted samples; black where there is none. The shares of a family, added up in double precision in any
+    // order and rounded to float, are R, G and B: for this, one or two of them differ from the nearest float. Shares that
+    // cancel do so only as far as their last bits allow.
     Image develop(Channels channels = Channels::color) const;
 
     // Adds what another film of the same window has: the film of all the samples of both, bit for bit. Throws Error, and adds

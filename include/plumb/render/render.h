@@ -8,6 +8,7 @@
 #include "plumb/model/integrator.h"
 #include "plumb/model/sampler.h"
 #include "plumb/render/film.h"
+#include "plumb/render/light_split.h"
 #include "plumb/render/sample_set.h"
 #include "plumb/scene/path_event.h"
 #include "plumb/scene/ray_counts.h"
@@ -35,10 +36,11 @@ struct RenderJob {
 struct RenderOptions {
     std::uint64_t samples_per_pixel = 0; // 0: what the scene file says
     std::uint64_t seed = 0;
-    int threads = 0;               // 0: all
-    int tile_size = 32;            // pixels; changes no bit of the image
-    std::optional<PixelRect> crop; // inside the image
-    std::vector<std::string> aovs; // names of layers: aovs.h
+    int threads = 0;                // 0: all
+    int tile_size = 32;             // pixels; changes no bit of the image
+    std::optional<PixelRect> crop;  // inside the image
+    std::vector<std::string> aovs;  // names of layers: aovs.h
+    std::vector<LightSplit> splits; // more layers: light_split.h
 };
 
 // Samples that were left out of the film. `first` is the smallest in the order (row, column, sample index).
@@ -80,9 +82,10 @@ using ProgressReport = std::function<void(const Progress&)>;
 // Asked from all threads, for each row of a tile: whether to stop soon.
 using Pause = std::function<bool()>;
 
-// The pixels that the options want of the job's image, and how many samples of each. They throw Error for a crop outside
-// the image and for too many samples.
+// The pixels that the options want of the job's image, which layers, and how many samples of each. They throw Error for a crop
+// outside the image, for layers that the job does not have, and for too many samples.
 PixelRect render_window(const RenderJob& job, const RenderOptions& options);
+ChannelSet render_layers(const RenderJob& job, const RenderOptions& options);
 std::uint64_t render_samples(const RenderJob& job, const RenderOptions& options);
 int render_threads(const RenderOptions& options);
 
@@ -90,9 +93,9 @@ int render_threads(const RenderOptions& options);
 // threads, tiles, crop, or the order and the calls in which they are taken.
 class Rendering {
 public:
-    // Throws what render_window() and Aovs throw, and Error if memory is short.
+    // Throws what render_window() and render_layers() throw, and Error if memory is short.
     Rendering(const RenderJob& job, const RenderOptions& options);
-    // Resumes from a state of the same job, seed and window. Throws Error if it does not have the layers of options.aovs.
+    // Resumes from a state of the same job, seed and window. Throws Error if it does not have the layers of the options.
     Rendering(const RenderJob& job, const RenderOptions& options, RenderState state);
     Rendering(const Rendering&) = delete;
     Rendering& operator=(const Rendering&) = delete;

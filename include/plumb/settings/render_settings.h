@@ -6,6 +6,7 @@
 
 #include "plumb/image/image.h"
 #include "plumb/model/dialect.h"
+#include "plumb/render/light_split.h"
 #include "plumb/scene/instruction_set.h"
 #include "plumb/settings/settings.h"
 
@@ -38,7 +39,8 @@ struct MethodSettings {
 struct ViewSettings {
     std::optional<Vec2i> size = {}; // pixels
     std::optional<PixelRect> crop = {};
-    std::vector<std::string> aovs = {}; // names of layers: aovs.h
+    std::vector<std::string> aovs = {};  // names of layers: aovs.h
+    std::vector<LightSplit> splits = {}; // more layers: light_split.h
     friend bool operator==(const ViewSettings&, const ViewSettings&) = default;
 };
 

@@ -93,9 +93,9 @@ OptionTable<Options> table()
         {outputs_option<Options>(),
          setting_options<Options>(Topic::output, &Options::settings, {"exposure", "no-variance"}),
          json_option<Options>(), state_options(),
-         setting_options<Options>(
-             Topic::image, &Options::settings,
-             {"spp", "seed", "size", "crop", "aov", "integrator", "sampler", "time", "target-error"}),
+         setting_options<Options>(Topic::image, &Options::settings,
+                                  {"spp", "seed", "size", "crop", "aov", "split", "integrator", "sampler",
+                                   "time", "target-error"}),
          scene_options<Options>(), threads_option<Options>(),
          setting_options<Options>(Topic::running, &Options::settings, {"isa"}), quiet_option<Options>(),
          verbose_option<Options>(),
