@@ -29,6 +29,7 @@ LAYERS = [
     ["suite_file", "test_file"],
     ["estimator_checks"],
     ["compare"],
+    ["display"],
     ["rendering"],
     ["experiments"],
     ["reports"],

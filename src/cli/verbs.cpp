@@ -19,6 +19,7 @@ static constexpr const Verb& (*const rows[])() = {
     verb<struct HelpVerb>,    //
     verb<struct TypesVerb>,   //
     verb<struct InfoVerb>,    //
+    verb<struct ViewVerb>,    //
     verb<struct ReplayVerb>,  //
     verb<struct RerunVerb>,   //
     verb<struct MergeVerb>,   //

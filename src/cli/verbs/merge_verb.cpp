@@ -46,7 +46,7 @@ int run(const Options& options)
     if (!checkpoint.empty()) save_work(work, checkpoint);
     if (!options.outputs.empty()) {
         const Evidence evidence = evidence_of(work);
-        write_images(options.outputs, image_of(work, evidence), work.settings.output.exposure,
+        write_images(options.outputs, image_of(work, evidence), work.settings.output,
                      packing_of(evidence), parts.front().parent_path());
     }
     write_json(options.json, work_json(work, options.outputs, checkpoint));
