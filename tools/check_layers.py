@@ -32,6 +32,7 @@ LAYERS = [
     ["suite_file", "test_file"],
     ["estimator_checks"],
     ["compare"],
+    ["display"],
     ["rendering"],
     ["experiments"],
     ["reports"],

@@ -136,7 +136,7 @@ int run_flow(const RenderTask& task, const RenderFlow& flow)
     std::vector<std::string> problems;
     try {
         if (!images.empty())
-            write_images(images, session.image(report.evidence), task.settings.output.exposure,
+            write_images(images, session.image(report.evidence), task.settings.output,
                          packing_of(report.evidence), flow.session.checkpoint.file.parent_path());
     } catch (const Error& error) {
         problems.emplace_back(error.what());

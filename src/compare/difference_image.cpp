@@ -4,6 +4,7 @@
 
 #include "compare/estimate.h"
 #include "plumb/base/error.h"
+#include "plumb/image/false_color.h"
 
 #include <fmt/format.h>
 
@@ -17,22 +18,6 @@ constexpr int glyph_width = 3;
 constexpr int glyph_height = 5;
 constexpr int least_width = 96; // room for the numbers
 constexpr Color background(0.02f);
-constexpr Color green(0.f, 1.f, 0.f); // not finite
-
-// From no error to the largest, in sRGB: dark blue, purple, red, orange, pale yellow, each lighter than the last.
-Color false_color(double error)
-{
-    constexpr float stops[][3] = {{0.f, 0.f, 0.04f},     {0.16f, 0.04f, 0.33f}, {0.52f, 0.12f, 0.42f},
-                                  {0.87f, 0.32f, 0.23f}, {0.98f, 0.65f, 0.04f}, {0.99f, 1.f, 0.7f}};
-    constexpr int last = 5;
-    const double position = std::clamp(error, 0.0, 1.0) * last;
-    const int below = std::min(static_cast<int>(position), last - 1);
-    const auto t = static_cast<float>(position - below);
-    const auto channel = [&](int i) {
-        return linear_from_srgb(lerp(stops[below][i], stops[below + 1][i], t));
-    };
-    return {channel(0), channel(1), channel(2)};
-}
 
 // Five rows of three pixels, from the top; '#' is lit.
 std::string_view glyph(char c)
@@ -90,7 +75,8 @@ Image draw(const std::vector<float>& errors, int width, int height, double large
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x, ++i)
             set(image, x, y,
-                std::isnan(errors[i]) ? green : false_color(static_cast<double>(errors[i]) / largest));
+                std::isnan(errors[i]) ? not_finite_color
+                                      : false_color(static_cast<double>(errors[i]) / largest));
 
     const int top = height + 3;
     for (int x = 0; x < full_width; ++x)

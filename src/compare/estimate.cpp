@@ -3,6 +3,7 @@
 #include "compare/channel_names.h"
 
 #include "plumb/base/error.h"
+#include "plumb/image/development.h"
 
 #include <algorithm>
 #include <bit>
@@ -121,6 +122,7 @@ ComparedImage make_compared_image(const Image& image, Side side, const CompareSe
     compared.estimator = estimator_of(image);
     compared.seed = header_text(image, "plumb:seed");
     compared.is_for_screens = !header_text(image, screen_mark).empty();
+    compared.display = display_text(image.metadata);
     compared.is_luminance = chosen.is_luminance;
     compared.is_half = halves_hold(compared.values);
     if (chosen.variances.empty()) return compared;
@@ -176,6 +178,13 @@ bool share_random_numbers(const ComparedImage& a, const ComparedImage& b)
 
 void check_comparable(const ComparedImage& a, const ComparedImage& b)
 {
+    const auto how = [](const ComparedImage& image) {
+        return image.display.empty() ? "without a curve or exposure" : "as '" + image.display + "'";
+    };
+    if (a.display != b.display)
+        throw Error(fmt::format("the images were developed differently: A {}, B {}; compare images of light, "
+                                "such as .exr files",
+                                how(a), how(b)));
     if (size_text(a) != size_text(b))
         throw Error(
             fmt::format("the images have different sizes: A is {}, B is {}", size_text(a), size_text(b)));

@@ -69,9 +69,9 @@ std::string compared_files(const SuiteResult& result)
 // The mean of the replicas, where there are several.
 Image read_images(const std::vector<std::string>& files)
 {
-    if (files.size() == 1) return read_image(files.front(), true);
+    if (files.size() == 1) return read_to_compare(files.front());
     std::vector<Image> replicas;
-    for (const std::string& file : files) replicas.push_back(read_image(file, true));
+    for (const std::string& file : files) replicas.push_back(read_to_compare(file));
     return mean_of_replicas(replicas, Side::a);
 }
 
@@ -216,7 +216,7 @@ void SuiteRunner::compare_with_reference(const SuiteJob& job, SuiteResult& resul
                                           entry.reference.string())
                             : fmt::format("reference '{}' does not exist; '{}' makes it",
                                           entry.reference.string(), suite_command(" --update"))}});
-    const Image& reference = reference_.emplace(read_image(entry.reference, true));
+    const Image& reference = reference_.emplace(read_to_compare(entry.reference));
     result.how = job.compare;
     result.compare_command = "renderer compare " + compared_files(result) + options_text(result.how);
     note_stale(job, reference, result);

@@ -133,7 +133,7 @@ SuiteRunner::Made SuiteRunner::render_whole(const RenderTask& task, const std::v
     if (result.interrupted) throw Error("interrupted");
     Evidence evidence = session.evidence();
     Image image = session.image(evidence);
-    if (!files.empty()) write_images(files, image, task.settings.output.exposure, packing_of(evidence), {});
+    if (!files.empty()) write_images(files, image, task.settings.output, packing_of(evidence), {});
     return {std::move(image), std::move(evidence)};
 }
 

@@ -2,11 +2,13 @@
 #include "plumb/settings/render_settings.h"
 
 #include "plumb/base/error.h"
+#include "plumb/image/development.h"
 #include "plumb/render/aovs.h"
 #include "plumb/render/film.h"
 #include "settings/parse_value.h"
 #include "settings/setting_text.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace plumb {
@@ -53,6 +55,20 @@ Texts crop_text(const S& s)
 Texts dialect_text(const S& s)
 {
     return s.scene.dialect ? Texts{std::string(to_string(*s.scene.dialect))} : Texts();
+}
+
+void set_tonemap(S& s, Name name, Text text)
+{
+    const auto names = tone_curve_names();
+    const std::string word = parse_word(name, text, {names.begin(), names.end()});
+    s.output.development.curve =
+        static_cast<ToneCurve>(std::find(names.begin(), names.end(), word) - names.begin());
+}
+
+Texts tonemap_text(const S& s)
+{
+    const ToneCurve curve = s.output.development.curve;
+    return curve == ToneCurve::none ? Texts() : Texts{std::string(to_string(curve))};
 }
 
 void set_aovs(S& s, Name name, Text text)
@@ -108,9 +124,13 @@ std::span<const SettingRow<RenderSettings>> setting_rows<RenderSettings>()
 {
     static const std::string help_of_isa = isa_help();
     static const SettingRow<RenderSettings> rows[] = {
-        {"exposure", "EV", "multiply .png and .jpg by 2^EV (default 0)", "the exposure", Effect::file,
-         [](const S& s) { return text_unless(s.output.exposure, 0.f); },
-         [](S& s, Name n, Text t) { s.output.exposure = parse_number(n, t, -100.f, 100.f); }},
+        {"exposure", "STOPS", "multiply .png and .jpg by 2^STOPS (default 0)", "the exposure", Effect::file,
+         [](const S& s) { return text_unless(s.output.development.exposure, 0.f); },
+         [](S& s, Name n, Text t) { s.output.development.exposure = parse_number(n, t, -100.f, 100.f); }},
+        {"tonemap", "CURVE",
+         "tone curve of .png and .jpg: none, filmic, aces or agx\n"
+         "(default none: what is brighter than white is clipped)",
+         "the tone curve", Effect::file, tonemap_text, set_tonemap},
         {"no-variance", "",
          "omit the error bars from .exr files: variance.R,\n"
          "variance.G, variance.B and contributing",

@@ -108,7 +108,7 @@ TEST_CASE("images that are packed fast have the same pixels", "[unit][image]")
 {
     const TempDirectory directory;
     const Image image = numbered({7, 3, 20, 11}, 64, 48);
-    write_image(directory / "a.exr", image, 0.f, Packing::fast);
+    write_image(directory / "a.exr", image, {}, Packing::fast);
     const Image back = read_image(directory / "a.exr", true);
     check_same_pixels(image, back, 0.f);
     CHECK(*find<std::string>(back.metadata, "compression") == "rle");
@@ -224,7 +224,7 @@ TEST_CASE("PNG files hold the nearest 8-bit sRGB value, clamped", "[unit][image]
     for (int y = 0; y < 2; ++y)
         for (int x = 0; x < 256; ++x)
             for (int c = 0; c < 3; ++c) scaled.pixel(x, y)[c] = std::ldexp(image.pixel(x, y)[c], -stops);
-    write_image(directory / "a.png", scaled, static_cast<float>(stops));
+    write_image(directory / "a.png", scaled, {static_cast<float>(stops)});
 
     const Image raw = read_image(directory / "a.png", false);
     const Image decoded = read_image(directory / "a.png", true);

@@ -21,6 +21,7 @@ using Examples = std::map<std::string, Texts, std::less<>>;
 
 const Examples render_examples = {
     {"exposure", {"-1.5", "0.1", "3.4e-05"}},
+    {"tonemap", {"filmic", "aces", "agx"}},
     {"no-variance", {"true"}},
     {"spp", {"1", "67108864"}},
     {"seed", {"7", "18446744073709551615"}},
@@ -157,7 +158,7 @@ TEST_CASE("the options in a header of Plumb 0.1 are read", "[unit][settings]")
     const RenderSettings settings =
         of_arguments("--exposure -1 --no-variance --spp 4 --seed 7 --crop 1,2,3,4 --time 2h "
                      "--define 'a=b c' --define 'x='\\''' --define $'y=1\\x0a2' --lenient");
-    CHECK(settings.output.exposure == -1.f);
+    CHECK(settings.output.development.exposure == -1.f);
     CHECK_FALSE(settings.output.error_bars);
     CHECK(settings.samples.per_pixel == 4u);
     CHECK(settings.samples.seed == 7);

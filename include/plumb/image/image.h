@@ -100,12 +100,23 @@ inline bool is_layer_channel(const std::string& name)
 // where it is noisy, and much larger where it is smooth.
 enum class Packing { small, fast };
 
-// Writes by extension: .exr (32-bit float, ZIP or, fast, RLE, data and display window, the chromaticities of sRGB), .hdr, .tif/.tiff (float), .png and .jpg
-// (8-bit sRGB after multiplying by 2^exposure; clamped, rounded). The file appears whole or not at all: it is
+// How light becomes values for a screen (development.h): multiplied by 2^exposure, then through the curve.
+enum class ToneCurve { none, filmic, aces, agx }; // none: what is above 1 is clipped
+struct Development {
+    float exposure = 0.f;
+    ToneCurve curve = ToneCurve::none;
+    friend bool operator==(const Development&, const Development&) = default;
+};
+
+// Writes by extension: .exr (32-bit float, ZIP or, fast, RLE, data and display window, the chromaticities
+// of sRGB), .hdr, .tif/.tiff (float), .png and .jpg (8-bit sRGB, developed and rounded). The file appears whole or not at all: it is
 // written beside `path` and renamed. Metadata goes into formats that can hold it; so do channels of layers, which must be
 // the last ones (.exr only). Same image, same bytes.
-void write_image(const std::filesystem::path& path, const Image& image, float exposure = 0.f,
+void write_image(const std::filesystem::path& path, const Image& image, const Development& development = {},
                  Packing packing = Packing::small);
+
+// Whether the extension is that of a format for screens, to which `development` applies: .png, .jpg and .jpeg.
+bool is_for_screens(const std::filesystem::path& path);
 
 // Throws Error if `path` cannot be written: unknown extension, missing or read-only directory, a directory of that name.
 void check_image_path(const std::filesystem::path& path);

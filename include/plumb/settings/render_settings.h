@@ -58,8 +58,8 @@ struct StopSettings {
 };
 
 struct OutputSettings {
-    float exposure = 0.f;   // multiplies .png and .jpg by a power of 2
-    bool error_bars = true; // .exr files also have the variance of each pixel
+    Development development = {}; // of .png and .jpg
+    bool error_bars = true;       // .exr files also have the variance of each pixel
     friend bool operator==(const OutputSettings&, const OutputSettings&) = default;
 };
 

@@ -47,8 +47,8 @@ int run(const Options& options)
     if (!checkpoint.empty()) save_work(work, checkpoint);
     if (!options.outputs.empty()) {
         const Evidence evidence = evidence_of(work);
-        write_images(options.outputs, image_of(work, evidence), work.settings.output.exposure,
-                     packing_of(evidence), parts.front().parent_path());
+        write_images(options.outputs, image_of(work, evidence), work.settings.output, packing_of(evidence),
+                     parts.front().parent_path());
     }
     write_json(options.json, work_json(work, options.outputs, checkpoint));
     if (options.quiet) return exit_code::done;

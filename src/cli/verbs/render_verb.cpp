@@ -20,6 +20,19 @@ struct Options : VerbOptions {
     int threads = 0;
 };
 
+// Settings of files for screens need one. A part hands them on to `renderer merge`.
+void check_screen_settings(const Options& options)
+{
+    const OutputSettings& output = options.settings.output;
+    const bool has_some = output.development != Development();
+    if (!has_some || options.part || options.outputs.empty() ||
+        std::any_of(options.outputs.begin(), options.outputs.end(),
+                    [](const std::string& file) { return is_for_screens(file); }))
+        return;
+    throw UsageError("--exposure and --tonemap change .png and .jpg files, and none is written; add -o "
+                     "FILE.png, or develop the image later with 'renderer view'");
+}
+
 // A part is no image yet: its output is the state file. What goes with what.
 void settle(Options& options)
 {
@@ -35,6 +48,7 @@ void settle(Options& options)
                 "a part is a fixed set of samples: use --part with --spp, not with --time or --target-error");
         options.checkpoint = options.outputs.front();
     }
+    check_screen_settings(options);
     if (options.resume && options.checkpoint.empty()) throw UsageError("--resume needs --checkpoint FILE");
     if (!options.checkpoint.empty() && !options.checkpoint.ends_with(".exr"))
         throw UsageError(
@@ -91,7 +105,7 @@ OptionTable<Options> table()
 {
     return join<Options>(
         {outputs_option<Options>(),
-         setting_options<Options>(Topic::output, &Options::settings, {"exposure", "no-variance"}),
+         setting_options<Options>(Topic::output, &Options::settings, {"exposure", "tonemap", "no-variance"}),
          json_option<Options>(), state_options(),
          setting_options<Options>(Topic::image, &Options::settings,
                                   {"spp", "seed", "size", "crop", "aov", "split", "integrator", "sampler",
