@@ -49,7 +49,6 @@ bool ExrInput::Stream::read(char bytes[], int count)
 ExrInput::ExrInput(const std::string& name) : stream_((start_threads(), name)), file_(stream_)
 {
     const Imf::Header& header = file_.header(0);
-    const Imf::Header& header = file_.header(0);
     if (header.hasType() && Imf::isDeepData(header.type()))
         throw Error("images with deep pixels are not supported");
     windows = windows_of(header);
