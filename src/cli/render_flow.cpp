@@ -111,6 +111,7 @@ int run_flow(const RenderTask& task, const RenderFlow& flow)
     KeptFiles(paths_of(task.scene.inputs))
         .refuse(with_json(written, flow.json), "the scene reads this file; write to another");
 
+    check_denoising(images, task.settings.output);
     const bool has_checkpoint = !checkpoint_of(flow).empty();
     std::optional<InterruptGuard> guard(std::in_place,
                                         has_checkpoint ? Interruption::by_manager : Interruption::by_hand);

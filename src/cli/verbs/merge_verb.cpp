@@ -40,14 +40,15 @@ int run(const Options& options)
     KeptFiles(parts).refuse(with_json(written, options.json), "it is a part to be merged");
 
     const Work work = merge_parts(parts);
+    check_denoising(options.outputs, work.settings.output);
     const std::string complaint = missing_text(work);
     if (!complaint.empty() && !options.outputs.empty() && !options.allow_missing)
         throw Error(complaint + "; pass --allow-missing to merge without them");
     if (!checkpoint.empty()) save_work(work, checkpoint);
     if (!options.outputs.empty()) {
         const Evidence evidence = evidence_of(work);
-        write_images(options.outputs, image_of(work, evidence), work.settings.output,
-                     packing_of(evidence), parts.front().parent_path());
+        write_images(options.outputs, image_of(work, evidence), work.settings.output, packing_of(evidence),
+                     parts.front().parent_path());
     }
     write_json(options.json, work_json(work, options.outputs, checkpoint));
     if (options.quiet) return exit_code::done;

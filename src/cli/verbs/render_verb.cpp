@@ -24,11 +24,15 @@ struct Options : VerbOptions {
 void check_screen_settings(const Options& options)
 {
     const OutputSettings& output = options.settings.output;
-    const bool has_some = output.development != Development();
+    const bool has_some = output.development != Development() || output.denoise;
     if (!has_some || options.part || options.outputs.empty() ||
         std::any_of(options.outputs.begin(), options.outputs.end(),
                     [](const std::string& file) { return is_for_screens(file); }))
         return;
+    if (output.denoise)
+        throw UsageError(
+            "--denoise changes .png and .jpg files, and none is written; add -o FILE.png, or use "
+            "'renderer denoise' later");
     throw UsageError("--exposure and --tonemap change .png and .jpg files, and none is written; add -o "
                      "FILE.png, or develop the image later with 'renderer view'");
 }
@@ -106,7 +110,7 @@ OptionTable<Options> table()
     return join<Options>(
         {outputs_option<Options>(),
          setting_options<Options>(Topic::output, &Options::settings,
-                                  {"exposure", "tonemap", "no-variance"}),
+                                  {"exposure", "tonemap", "denoise", "no-variance"}),
          json_option<Options>(), state_options(),
          setting_options<Options>(
              Topic::image, &Options::settings,
