@@ -11,6 +11,7 @@ namespace {
 struct Options : VerbOptions {
     RenderSettings settings;
     std::vector<std::string> outputs;
+    LiveOptions live;
     std::string json;
     std::string checkpoint;
     double checkpoint_seconds = 60.0;
@@ -70,6 +71,7 @@ int run(const Options& options)
                           options.json,
                           options.resume,
                           options.quiet,
+                          options.live,
                           options.typed};
     check_flow(flow);
     auto file = open_scene(options.subject(), options.settings.scene);
@@ -111,7 +113,7 @@ OptionTable<Options> table()
         {outputs_option<Options>(),
          setting_options<Options>(Topic::output, &Options::settings,
                                   {"exposure", "tonemap", "denoise", "no-variance"}),
-         json_option<Options>(), state_options(),
+         live_options(&Options::live), json_option<Options>(), state_options(),
          setting_options<Options>(
              Topic::image, &Options::settings,
              {"spp", "seed", "size", "crop", "aov", "integrator", "sampler", "time", "target-error"}),
