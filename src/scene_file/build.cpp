@@ -29,10 +29,12 @@ Property integer_property(std::uint64_t value)
     return property;
 }
 
-// Bytes for an image of beauty alone: the film, the image that it becomes, and a copy for writing.
-double image_bytes(double pixels)
+// Bytes for an image: the film, the image that it becomes, and a copy for writing.
+double image_bytes(double pixels, const ChannelSet& layers)
 {
-    return pixels * static_cast<double>(Film::bytes_per_pixel() + 2 * 3 * sizeof(float));
+    std::size_t channels = 3;
+    for (const Layer& layer : layers) channels += layer.components.size();
+    return pixels * static_cast<double>(Film::bytes_per_pixel(layers) + 2 * channels * sizeof(float));
 }
 
 // Of a type that the settings name, in the words of any course.
@@ -186,8 +188,11 @@ void SceneBuilder::build_camera(MethodAndView& parts, const ViewSettings& view)
 void SceneBuilder::check_memory(Vec2i resolution, const ViewSettings& view)
 {
     const double pixels = static_cast<double>(resolution.x) * static_cast<double>(resolution.y);
-    const double needed =
-        image_bytes(view.crop ? static_cast<double>(view.crop->width) * view.crop->height : pixels);
+    std::vector<std::string> aovs = view.aovs;
+    for (const std::string& aov : aovs_)
+        if (std::find(aovs.begin(), aovs.end(), aov) == aovs.end()) aovs.push_back(aov);
+    const double needed = image_bytes(
+        view.crop ? static_cast<double>(view.crop->width) * view.crop->height : pixels, layers_of(aovs));
     const auto available = available_memory();
     if (!available || needed <= static_cast<double>(*available)) return;
     SourceLocation at;

@@ -56,7 +56,7 @@ struct LeftOut {
     LeftOut& operator+=(const LeftOut& other);
 };
 
-// What has been rendered so far: enough to make the image of, and to go on from.
+// What has been rendered so far: enough to make the image, and to resume.
 struct RenderState {
     Film film;
     SampleSet taken; // those left out included
@@ -94,7 +94,7 @@ class Rendering {
 public:
     // Throws what render_window() and Aovs throw, and Error if memory is short.
     Rendering(const RenderJob& job, const RenderOptions& options);
-    // Goes on from a state of the same job, seed and window. Throws Error if it does not have the layers of options.aovs.
+    // Resumes from a state of the same job, seed and window. Throws Error if it does not have the layers of options.aovs.
     Rendering(const RenderJob& job, const RenderOptions& options, RenderState state);
     Rendering(const Rendering&) = delete;
     Rendering& operator=(const Rendering&) = delete;

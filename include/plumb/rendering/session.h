@@ -66,7 +66,7 @@ public:
     RenderSession& operator=(const RenderSession&) = delete;
     ~RenderSession();
 
-    // Goes on from the checkpoint, or from the one before if that is damaged; false: there is neither. Throws Error if it is of
+    // Resumes from the checkpoint, or from the one before if that is damaged; false: there is neither. Throws Error if it is of
     // another work, with what has changed.
     bool resume();
     // Takes samples until all are taken, a rule says so or somebody stops it; then it may be called again. Writes checkpoints
