@@ -21,6 +21,7 @@ LAYERS = [
     ["math"],
     ["sampling", "statistics"],
     ["image"],
+    ["denoise"],
     ["model"],
     ["shapes", "textures", "bsdfs", "emitters", "cameras", "samplers", "filters"],
     ["scene"],

@@ -21,6 +21,7 @@ static constexpr const Verb& (*const rows[])() = {
     verb<struct SchemaVerb>,     //
     verb<struct InfoVerb>,       //
     verb<struct ViewVerb>,       //
+    verb<struct DenoiseVerb>,    //
     verb<struct ReplayVerb>,     //
     verb<struct RerunVerb>,      //
     verb<struct MergeVerb>,      //

@@ -22,6 +22,7 @@ struct ComparedImage {
     std::string noise = "none";  // where the variances come from
     bool is_for_screens = false; // 8-bit integers or the like: rounded, and clipped at 1
     std::string display;       // development.h's display_text: values with different texts are not comparable
+    std::string denoised;      // by what; empty: nothing says that it was
     bool is_luminance = false; // of an image that has colours as well
     bool is_half = false;      // 16-bit floats can hold every value
     std::string estimator;     // Estimate's

@@ -72,10 +72,10 @@ void SuiteRunner::make_reference(const SuiteJob& job, SuiteResult& result)
     if (reference.extension() == ".exr")
         files.push_back(fs::path(reference).replace_extension(".png").string());
     if (const std::string how = development_text(job.reference.output.development);
-        is_low_dynamic_range(reference) && !how.empty())
+        is_low_dynamic_range(reference) && (!how.empty() || job.reference.output.denoise))
         throw Error(fmt::format("'{}' cannot be made with '{}': a reference has the values of light; make an "
                                 ".exr file, or take these settings out of the suite",
-                                reference.string(), how));
+                                reference.string(), job.reference.output.denoise ? "denoise" : how));
     const RenderTask task = task_of(job.entry, job.reference);
     for (const Diagnostic& warning : task.scene.warnings) result.warnings.push_back(warning.text());
     make_directory(reference.parent_path());

@@ -128,6 +128,7 @@ RenderTask SuiteRunner::task_of(const SuiteEntry& entry, const RenderSettings& s
 SuiteRunner::Made SuiteRunner::render_whole(const RenderTask& task, const std::vector<std::string>& files,
                                             SuiteResult& result)
 {
+    check_denoising(files, task.settings.output);
     RenderSession session(task, {.threads = options_.threads}, callbacks_);
     result.interrupted = session.run() == StopReason::interrupted;
     if (result.interrupted) throw Error("interrupted");

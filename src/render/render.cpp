@@ -188,7 +188,8 @@ Rendering::Rendering(const RenderJob& job, const RenderOptions& options, RenderS
                                 layer_names(state_.film.layers()), layer_names(wanted)));
 }
 
-bool Rendering::take(const SampleSet& wanted, const ProgressReport& progress, const Pause& pause)
+bool Rendering::take(const SampleSet& wanted, const ProgressReport& progress, const Pause& pause,
+                     const TileReport& tile_report)
 {
     const SampleSet missing = wanted - state_.taken;
     std::uint64_t first = max_samples_per_pixel;
@@ -235,6 +236,7 @@ bool Rendering::take(const SampleSet& wanted, const ProgressReport& progress, co
             }
             done.pixels.height = y - tile.y + 1;
         }
+        if (tile_report && done.pixels.height > 0) tile_report(state_.film, done.pixels);
         reporter.add(done.count(), worker.tracer.counts().total() - rays_before);
         return done;
     };

@@ -171,7 +171,7 @@ struct RenderSession::Impl {
             return callbacks.is_stopped() || images->failed() || (has_checkpoint() && timer.due());
         };
         while (!rendering->take(
-            wanted, [this](const Progress& progress) { show(progress); }, pause)) {
+            wanted, [this](const Progress& progress) { show(progress); }, pause, callbacks.tile)) {
             if (images->failed()) images->wait(); // throws: what is rendered could not be written
             if (callbacks.is_stopped()) return false;
             try {

@@ -131,6 +131,11 @@ std::span<const SettingRow<RenderSettings>> setting_rows<RenderSettings>()
          "tone curve of .png and .jpg: none, filmic, aces or agx\n"
          "(default none: what is brighter than white is clipped)",
          "the tone curve", Effect::file, tonemap_text, set_tonemap},
+        {"denoise", "",
+         "denoise .png and .jpg with Open Image Denoise; adds\n"
+         "the layers albedo_behind and normal_behind",
+         "denoising", Effect::file, [](const S& s) { return switch_text(s.output.denoise); },
+         [](S& s, Name n, Text t) { s.output.denoise = parse_switch(n, t); }},
         {"no-variance", "",
          "omit the error bars from .exr files: variance.R,\n"
          "variance.G, variance.B and contributing",

@@ -22,6 +22,7 @@ using Examples = std::map<std::string, Texts, std::less<>>;
 const Examples render_examples = {
     {"exposure", {"-1.5", "0.1", "3.4e-05"}},
     {"tonemap", {"filmic", "aces", "agx"}},
+    {"denoise", {"true"}},
     {"no-variance", {"true"}},
     {"spp", {"1", "67108864"}},
     {"seed", {"7", "18446744073709551615"}},

@@ -27,6 +27,7 @@ if(TARGET renderer)
   install(TARGETS renderer plumb_images DESTINATION plumb/bin COMPONENT wheel EXCLUDE_FROM_ALL)
   install(FILES "${PROJECT_SOURCE_DIR}/src/python/plumb_renderer.py" DESTINATION . COMPONENT wheel EXCLUDE_FROM_ALL)
   install(PROGRAMS "${PROJECT_SOURCE_DIR}/tools/slurm/render" TYPE BIN RENAME renderer-slurm COMPONENT renderer)
+  install(PROGRAMS "${PROJECT_SOURCE_DIR}/tools/install-denoiser" TYPE BIN RENAME renderer-install-denoiser COMPONENT renderer)
 
   # What the program prints of itself. For another processor it cannot be run here, unless it is emulated.
   if(NOT CMAKE_CROSSCOMPILING OR CMAKE_CROSSCOMPILING_EMULATOR)

@@ -73,6 +73,11 @@ public:
     // cancel do so only as far as their last bits allow.
     Image develop(Channels channels = Channels::color) const;
 
+    // The same of the pixels of a part of the window, by rows: R, G, B and the layers of each. No other thread may add to these
+    // pixels meanwhile; to others it may.
+    std::vector<float> develop(const PixelRect& part) const;
+    std::vector<std::string> channel_names() const; // of both: "R", "G", "B", "normal.X" and so on
+
     // Adds what another film of the same window has: the film of all the samples of both, bit for bit. Throws Error, and adds
     // nothing, if their layers differ.
     Film& operator+=(const Film& other);

@@ -79,6 +79,8 @@ struct Progress {
 };
 // Called from one thread at a time, between tiles.
 using ProgressReport = std::function<void(const Progress&)>;
+// Called from all threads with pixels to which nobody adds meanwhile: Film::develop(part) shows them.
+using TileReport = std::function<void(const Film& film, const PixelRect& part)>;
 // Asked from all threads, for each row of a tile: whether to stop soon.
 using Pause = std::function<bool()>;
 
@@ -101,7 +103,8 @@ public:
     Rendering& operator=(const Rendering&) = delete;
 
     // Takes what has not been taken of the wanted samples, until pause says so. Whether all of them are taken now.
-    bool take(const SampleSet& wanted, const ProgressReport& progress = {}, const Pause& pause = {});
+    bool take(const SampleSet& wanted, const ProgressReport& progress = {}, const Pause& pause = {},
+              const TileReport& tile = {});
 
     const RenderState& state() const { return state_; }
     RenderState finish() && { return std::move(state_); }

@@ -22,6 +22,7 @@ enum class StopReason { all_samples, time_limit, target_error, interrupted };
 
 struct SessionCallbacks {
     std::function<void(const Progress&)> progress = {}; // from one thread at a time
+    TileReport tile = {}; // from all threads: pixels with more samples than before
     // What does not end the rendering: warnings ("a damaged checkpoint was skipped") and notes.
     std::function<void(const Diagnostic&)> message = {};
     // Read from all threads, for each row of a tile; a signal handler may set it.

@@ -59,6 +59,7 @@ struct StopSettings {
 
 struct OutputSettings {
     Development development = {}; // of .png and .jpg
+    bool denoise = false;         // .png and .jpg; adds layers to the image
     bool error_bars = true;       // .exr files also have the variance of each pixel
     friend bool operator==(const OutputSettings&, const OutputSettings&) = default;
 };

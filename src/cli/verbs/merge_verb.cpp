@@ -41,6 +41,7 @@ int run(const Options& options)
     KeptFiles(parts).refuse(with_json(written, options.json), "it is a part to be merged");
 
     const Work work = merge_parts(parts, {.mixed_processors = options.mixed});
+    check_denoising(options.outputs, work.settings.output);
     const std::string complaint = missing_text(work);
     if (!complaint.empty() && !options.outputs.empty() && !options.allow_missing)
         throw Error(complaint + "; pass --allow-missing to merge without them");

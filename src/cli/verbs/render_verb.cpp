@@ -11,6 +11,7 @@ namespace {
 struct Options : VerbOptions {
     RenderSettings settings;
     std::vector<std::string> outputs;
+    LiveOptions live;
     std::string json;
     std::string checkpoint;
     double checkpoint_seconds = 60.0;
@@ -24,11 +25,15 @@ struct Options : VerbOptions {
 void check_screen_settings(const Options& options)
 {
     const OutputSettings& output = options.settings.output;
-    const bool has_some = output.development != Development();
+    const bool has_some = output.development != Development() || output.denoise;
     if (!has_some || options.part || options.outputs.empty() ||
         std::any_of(options.outputs.begin(), options.outputs.end(),
                     [](const std::string& file) { return is_for_screens(file); }))
         return;
+    if (output.denoise)
+        throw UsageError(
+            "--denoise changes .png and .jpg files, and none is written; add -o FILE.png, or use "
+            "'renderer denoise' later");
     throw UsageError("--exposure and --tonemap change .png and .jpg files, and none is written; add -o "
                      "FILE.png, or develop the image later with 'renderer view'");
 }
@@ -66,6 +71,7 @@ int run(const Options& options)
                           options.json,
                           options.resume,
                           options.quiet,
+                          options.live,
                           options.typed};
     check_flow(flow);
     auto file = open_scene(options.subject(), options.settings.scene);
@@ -105,8 +111,9 @@ OptionTable<Options> table()
 {
     return join<Options>(
         {outputs_option<Options>(),
-         setting_options<Options>(Topic::output, &Options::settings, {"exposure", "tonemap", "no-variance"}),
-         json_option<Options>(), state_options(),
+         setting_options<Options>(Topic::output, &Options::settings,
+                                  {"exposure", "tonemap", "denoise", "no-variance"}),
+         live_options(&Options::live), json_option<Options>(), state_options(),
          setting_options<Options>(Topic::image, &Options::settings,
                                   {"spp", "seed", "size", "crop", "aov", "split", "integrator", "sampler",
                                    "time", "target-error"}),
