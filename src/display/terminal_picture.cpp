@@ -21,32 +21,37 @@ Rgb pixel_of(const ByteImage& image, int x, int y)
     return {image.values[at], image.values[at + 1], image.values[at + 2]};
 }
 
-// The nearest of xterm's 6x6x6 colours, whose levels are 0, 95, 135, 175, 215 and 255, or of its 24 greys, 8 to 238.
-int xterm_color(const Rgb& color)
+// From 1 to 31, of 32: Bayer's matrix.
+int dither_threshold(int x, int y)
 {
-    constexpr int levels[] = {0, 95, 135, 175, 215, 255};
-    const auto nearest = [&](int value) {
-        int best = 0;
-        for (int i = 1; i < 6; ++i)
-            if (std::abs(levels[i] - value) < std::abs(levels[best] - value)) best = i;
-        return best;
-    };
-    const auto distance = [&](int r, int g, int b) {
-        return std::abs(r - color[0]) + std::abs(g - color[1]) + std::abs(b - color[2]);
-    };
-    const int r = nearest(color[0]), g = nearest(color[1]), b = nearest(color[2]);
-    const int mean = (color[0] + color[1] + color[2]) / 3;
-    const int grey = std::clamp((mean - 8 + 5) / 10, 0, 23);
-    const int level = 8 + 10 * grey;
-    return distance(level, level, level) < distance(levels[r], levels[g], levels[b])
-               ? 232 + grey
-               : 16 + 36 * r + 6 * g + b;
+    constexpr int matrix[4][4] = {{0, 8, 2, 10}, {12, 4, 14, 6}, {3, 11, 1, 9}, {15, 7, 13, 5}};
+    return 2 * matrix[y & 3][x & 3] + 1;
 }
 
-std::string color_code(const Rgb& color, int ground, bool true_color) // ground: 38 or 48
+// One of xterm's 24 greys, 8 to 238, for what has hardly any colour; else of its 6x6x6 colours, dithered.
+int xterm_color(const Rgb& color, int x, int y)
 {
+    const auto [least, most] = std::minmax({color[0], color[1], color[2]});
+    constexpr int hardly = 6;
+    if (most - least < hardly && most <= 238 && least >= 8)
+        return 232 + std::clamp((most - 8 + 5) / 10, 0, 23);
+    const int threshold = dither_threshold(x, y);
+    const auto level = [threshold](int value) {
+        constexpr int levels[] = {0, 95, 135, 175, 215, 255};
+        int below = 0;
+        while (below < 4 && levels[below + 1] <= value) ++below;
+        return below +
+               ((value - levels[below]) * 32 > threshold * (levels[below + 1] - levels[below]) ? 1 : 0);
+    };
+    return 16 + 36 * level(color[0]) + 6 * level(color[1]) + level(color[2]);
+}
+
+// ground: 38 or 48. Of the pixel at x, y.
+std::string color_code(const ByteImage& image, int x, int y, int ground, bool true_color)
+{
+    const Rgb color = pixel_of(image, x, y);
     return true_color ? fmt::format("\033[{};2;{};{};{}m", ground, color[0], color[1], color[2])
-                      : fmt::format("\033[{};5;{}m", ground, xterm_color(color));
+                      : fmt::format("\033[{};5;{}m", ground, xterm_color(color, x, y));
 }
 
 std::string base64(const std::vector<std::uint8_t>& bytes)
@@ -62,11 +67,10 @@ std::string base64(const std::vector<std::uint8_t>& bytes)
     return text;
 }
 
-// Of the 6x6x6 colours, dithered by Bayer's matrix.
+// Of 6x6x6 colours at equal steps, dithered.
 int dithered_color(const Rgb& color, int x, int y)
 {
-    constexpr int matrix[4][4] = {{0, 8, 2, 10}, {12, 4, 14, 6}, {3, 11, 1, 9}, {15, 7, 13, 5}};
-    const int threshold = 2 * matrix[y & 3][x & 3] + 1; // of 32
+    const int threshold = dither_threshold(x, y);
     const auto level = [threshold](int value) {
         return std::min(5, (value * 5 * 32 / 255 + threshold) / 32);
     };
@@ -91,9 +95,9 @@ std::string half_blocks(const ByteImage& image, bool true_color)
         std::string upper, lower; // what the terminal has
         for (int x = 0; x < image.width; ++x) {
             const bool has_lower = y + 1 < image.height;
-            const std::string front = color_code(pixel_of(image, x, y), 38, true_color);
+            const std::string front = color_code(image, x, y, 38, true_color);
             const std::string back =
-                has_lower ? color_code(pixel_of(image, x, y + 1), 48, true_color) : std::string("\033[49m");
+                has_lower ? color_code(image, x, y + 1, 48, true_color) : std::string("\033[49m");
             if (front != upper) text += front;
             if (back != lower) text += back;
             text += "\u2580"; // the upper half of a block

@@ -117,7 +117,36 @@ TEST_CASE("half blocks have an upper and a lower pixel in each character", "[uni
           "\033[38;2;255;0;0m\033[48;2;0;0;255m\u2580\033[38;2;0;255;0m\u2580\033[0m\033[K\r\n"
           "\033[38;2;7;8;9m\033[49m\u2580\u2580\033[0m\033[K\r\n");
     CHECK(half_blocks(image, false) == "\033[38;5;196m\033[48;5;21m\u2580\033[38;5;46m\u2580\033[0m\033[K\r\n"
-                                       "\033[38;5;232m\033[49m\u2580\u2580\033[0m\033[K\r\n");
+                                       "\033[38;5;16m\033[49m\u2580\u2580\033[0m\033[K\r\n");
+}
+
+TEST_CASE("half blocks of 256 colours keep greys and the mean of others", "[unit][display]")
+{
+    const ByteImage grey{1, 1, 3, {128, 128, 128}};
+    CHECK(half_blocks(grey, false).starts_with("\033[38;5;244m\033[49m")); // 8 + 10 * 12
+    const ByteImage color{16, 16, 3, [] {
+                              std::vector<std::uint8_t> values;
+                              for (int i = 0; i < 256; ++i) values.insert(values.end(), {110, 60, 200});
+                              return values;
+                          }()};
+    const std::string text = half_blocks(color, false);
+    double sums[3] = {0.0, 0.0, 0.0};
+    std::array<int, 2> code{}; // of both grounds
+    for (std::size_t at = 0; at < text.size(); ++at) {
+        for (std::size_t ground = 0; ground < 2; ++ground)
+            if (text.compare(at, 7, ground == 0 ? "\033[38;5;" : "\033[48;5;") == 0)
+                code[ground] = std::stoi(text.substr(at + 7)) - 16;
+        if (text.compare(at, 3, "\u2580") != 0) continue;
+        constexpr int levels[] = {0, 95, 135, 175, 215, 255};
+        for (const int one : code) {
+            sums[0] += levels[one / 36];
+            sums[1] += levels[one / 6 % 6];
+            sums[2] += levels[one % 6];
+        }
+    }
+    CHECK(sums[0] / 256.0 == Approx(110).margin(3.0));
+    CHECK(sums[1] / 256.0 == Approx(60).margin(3.0));
+    CHECK(sums[2] / 256.0 == Approx(200).margin(3.0));
 }
 
 TEST_CASE("kitty gets every byte, in chunks of 4096 at most", "[unit][display]")
