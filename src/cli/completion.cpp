@@ -4,6 +4,7 @@
 #include "cli/verbs.h"
 #include "reports/type_summary.h"
 
+#include "plumb/image/development.h"
 #include "plumb/model/dialect.h"
 #include "plumb/render/aovs.h"
 #include "plumb/scene/instruction_set.h"
@@ -46,6 +47,12 @@ Words instruction_sets()
     return {names.begin(), names.end()};
 }
 
+Words tone_curves()
+{
+    const auto names = tone_curve_names();
+    return {names.begin(), names.end()};
+}
+
 struct OptionWords {
     std::string_view option;
     Words (*words)();
@@ -84,6 +91,11 @@ constexpr OptionWords option_words[] = {
      }},
     {"--sampler", [] { return names_of(types_of("sampler")); }},
     {"--samplers", [] { return names_of(types_of("sampler")); }},
+    {"--split",
+     [] {
+         return Words{"depth", "technique", "light"};
+     }},
+    {"--tonemap", tone_curves},
     {"--variance-of",
      [] {
          return Words{"sample", "mean"};

@@ -31,7 +31,7 @@ template <class Options>
 OptionTable<Options> development_options(DevelopmentOptions Options::*member)
 {
     return {{{Topic::image, "--exposure", "STOPS",
-              "multiply colours by 2^STOPS (default: the header's, or 0)", false, false},
+              "multiply colours by 2^STOPS (default: the\nheader's, or 0)", false, false},
              [member](Options& o, std::string_view n, const std::string& t) {
                  (o.*member).exposure = one_setting("exposure", n, t).output.development.exposure;
              }},

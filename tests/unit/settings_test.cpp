@@ -29,6 +29,7 @@ const Examples render_examples = {
     {"size", {"65535x1", "640x480"}},
     {"crop", {"1,2,3,4"}},
     {"aov", {"normal", "depth,albedo"}},
+    {"split", {"light", "depth:3,technique"}},
     {"integrator", {"path_mis"}},
     {"sampler", {"sobol"}},
     {"time", {"90", "0.1", "5400"}},

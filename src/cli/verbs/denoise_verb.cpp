@@ -55,7 +55,8 @@ constexpr std::string_view manual =
     R"(Denoises an image with Open Image Denoise 2, which tools/install-denoiser
 installs. The layers albedo_behind and normal_behind (of --aov), or albedo and
 normal, guide it where the image has them. The result is biased, and its error
-is unknown: it has no error bars, and compare and batch refuse it as a reference.
+is unknown: it has no error bars, and compare and batch refuse it as a
+reference.
 )";
 
 OptionTable<Options> table()
@@ -75,9 +76,8 @@ OptionTable<Options> table()
 struct DenoiseVerb {
     static Verb make()
     {
-        return make_verb<Options>({"denoise", "IMAGE -o IMAGE [options]",
-                                   "remove noise from an image, for looking at", "image", 1, 1,
-                                   std::string(manual)},
+        return make_verb<Options>({"denoise", "IMAGE -o IMAGE [options]", "remove noise from an image",
+                                   "image", 1, 1, std::string(manual)},
                                   table(), run, settle);
     }
 };
