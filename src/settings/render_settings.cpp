@@ -129,7 +129,7 @@ std::span<const SettingRow<RenderSettings>> setting_rows<RenderSettings>()
          [](S& s, Name n, Text t) { s.output.development.exposure = parse_number(n, t, -100.f, 100.f); }},
         {"tonemap", "CURVE",
          "tone curve of .png and .jpg: none, filmic, aces or agx\n"
-         "(default none: what is brighter than white is clipped)",
+         "(default none: values above white are clipped)",
          "the tone curve", Effect::file, tonemap_text, set_tonemap},
         {"denoise", "",
          "denoise .png and .jpg with Open Image Denoise; adds\n"
