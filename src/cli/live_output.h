@@ -51,7 +51,7 @@ OptionTable<Options> live_options(LiveOptions Options::*member)
           true},
          [member](Options& o, std::string_view n, const std::string& t) { set_viewer(o.*member, n, t); }},
         {{Topic::output, "--preview", "HOW",
-          "show the image in the terminal: blocks, sixel or kitty\n(default: what the terminal can do)",
+          "show the image in the terminal: blocks, sixel or\nkitty (default: what the terminal can do)",
           false, false, true},
          [member](Options& o, std::string_view n, const std::string& t) { set_preview(o.*member, n, t); }}};
 }

@@ -128,8 +128,8 @@ std::span<const SettingRow<RenderSettings>> setting_rows<RenderSettings>()
          [](const S& s) { return text_unless(s.output.development.exposure, 0.f); },
          [](S& s, Name n, Text t) { s.output.development.exposure = parse_number(n, t, -100.f, 100.f); }},
         {"tonemap", "CURVE",
-         "tone curve of .png and .jpg: none, filmic, aces or agx\n"
-         "(default none: values above white are clipped)",
+         "tone curve of .png and .jpg: none, filmic, aces or\n"
+         "agx (default none: values above white are clipped)",
          "the tone curve", Effect::file, tonemap_text, set_tonemap},
         {"denoise", "",
          "denoise .png and .jpg with Open Image Denoise; adds\n"
