@@ -3,7 +3,7 @@
 // Stands in for src/image/image_module.cpp: the lean image module as a part of the program, which is compiled for fuzzing.
 
 #include "image/image_module.h"
-#include "image/lean/module.h"
+#include "image/lean/lean_module.h"
 
 namespace plumb {
 

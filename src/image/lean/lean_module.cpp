@@ -2,7 +2,7 @@
 
 // Which format a file has, and who reads and writes it.
 
-#include "image/lean/module.h"
+#include "image/lean/lean_module.h"
 
 #include "base/lower_case.h"
 #include "base/regular_file.h"
