@@ -186,6 +186,11 @@ AovMeter::AovMeter(std::span<const std::string> names, const Scene& scene, const
     if (!wanted_.empty()) view_.emplace(scene, camera);
 }
 
+bool AovMeter::needs_surfaces() const
+{
+    return std::any_of(wanted_.begin(), wanted_.end(), [](const Wanted& one) { return !one.row->of_sample; });
+}
+
 LayerSample AovMeter::measure(const SampleFacts& sample, Values& room) const
 {
     room.values.clear();

@@ -35,7 +35,7 @@ SampleLayers::SampleLayers(const RenderJob& job, const RenderOptions& options)
 Tracer::Notes SampleLayers::Meter::notes()
 {
     Tracer::Notes notes;
-    if (!layers_.aovs_.empty()) notes.first = &first_;
+    if (layers_.aovs_.needs_surfaces()) notes.first = &first_;
     if (!layers_.splitter_.empty()) notes.light = &light_;
     return notes;
 }

@@ -102,7 +102,7 @@ void write_scale(JsonWriter& json, const Comparison& c, const ScaleTest& scale)
         json.number("mean_b", test.mean_b);
         json.number("t", test.t);
         json.number("degrees_of_freedom", test.freedom);
-        json.number("p", test.p);
+        json.number("p", p_number(test.p));
         json.end_object();
     } else {
         json.null("largest");
@@ -139,7 +139,7 @@ void write_difference_noise(JsonWriter& json, const Comparison& c)
         if (test.is_tested) {
             json.text("channel", c.channels[static_cast<std::size_t>(test.channel)]);
             json.number("ratio", test.ratio);
-            json.number("p", test.p);
+            json.number("p", p_number(test.p));
         }
         json.end_object();
     }
@@ -151,7 +151,7 @@ void write_alignment(JsonWriter& json, std::string_view key, const std::optional
     if (!alignment) return json.null(key);
     json.begin_object(key);
     json.text("change_of_a", alignment->change);
-    json.number("p", alignment->p);
+    json.number("p", p_number(alignment->p));
     json.integer("tried", static_cast<std::uint64_t>(alignment->tried));
     json.end_object();
 }
@@ -166,7 +166,7 @@ void write_significance(JsonWriter& json, const Comparison& c, const CompareSett
     json.text("error_bars_a", c.noise_a);
     json.text("error_bars_b", c.noise_b);
     if (!s.scales.empty()) {
-        json.number("p", s.p);
+        json.number("p", p_number(s.p));
         json.integer("pixels", s.pixels);
         json.integer("differing", s.differing);
         json.integer("untested", s.untested);

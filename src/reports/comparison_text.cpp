@@ -11,6 +11,8 @@ namespace plumb {
 
 namespace {
 
+constexpr double smallest_p = 1e-300;
+
 std::string row(std::string_view name, std::string_view value)
 {
     return fmt::format("  {:<16} {}\n", name, value);
@@ -161,7 +163,12 @@ std::string threshold_text(const Comparison& c, const CompareSettings& options)
 
 std::string p_text(double p, int digits)
 {
-    return p < 1e-300 ? "< 1e-300" : fmt::format("{:.{}g}", p, digits);
+    return p < smallest_p ? "< 1e-300" : fmt::format("{:.{}g}", p, digits);
+}
+
+double p_number(double p)
+{
+    return p < smallest_p ? smallest_p : p;
 }
 
 std::string_view verdict_word(Verdict verdict)

@@ -79,7 +79,7 @@ void write_pairs(JsonWriter& json, const Agreement& agreement)
         json.text("b", agreement.estimates[pair.b].name);
         json.text("outcome", verdict_word(pair.comparison.verdict));
         if (!found.reason.empty()) json.text("reason", found.reason);
-        json.number("p", found.p);
+        json.number("p", p_number(found.p));
         if (const auto& bias = found.detectable_bias)
             json.number("detectable_bias", *bias);
         else

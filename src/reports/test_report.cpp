@@ -36,7 +36,7 @@ void write_run(JsonWriter& json, const TestRun& run, TestType type)
     }
     json.number(type == TestType::ttest ? "t" : "chi2", run.statistic);
     json.number("degrees_of_freedom", run.degrees_of_freedom);
-    json.number("p", run.p);
+    json.number("p", p_number(run.p));
     if (!run.problem.empty()) json.text("problem", run.problem);
     json.end_object();
 }

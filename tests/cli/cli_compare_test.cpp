@@ -142,6 +142,21 @@ TEST_CASE("compare takes replicas", "[cli][compare]")
         {"a.exr", "bright.exr", "--against", "r1.exr", "--against", "r2.exr", "--json", "-"});
     CHECK_THAT(both.out, ContainsSubstring("\"error_bars_b\": \"2 replicas\""));
 
+    const RunResult named = directory.compare({"r{replica}.exr", "--replicas", "2", "b.exr"});
+    CHECK(named.exit_code == 0);
+    CHECK(named.out == same.out);
+    const RunResult reference = directory.compare({"a.exr", "r{replica}.exr", "--replicas", "3"});
+    CHECK_THAT(reference.out, ContainsSubstring("B r1.exr r2.exr r3.exr\n"));
+    CHECK_THAT(directory.compare({"a.exr", "b.exr", "--replicas", "2"}).err,
+               ContainsSubstring(
+                   "error: --replicas needs a name with {replica} in it, such as 'mine_{replica}.exr'\n"));
+    // What a shell makes of --against r*.exr.
+    const RunResult glob = directory.compare({"a.exr", "--against", "r1.exr", "r2.exr"});
+    CHECK(glob.exit_code == 2);
+    CHECK_THAT(glob.err,
+               ContainsSubstring("error: 'r2.exr' is behind --against, so it may be of A or of B; "));
+    CHECK(directory.compare({"--against", "b.exr", "r1.exr", "r2.exr"}).out == same.out);
+
     const RunResult identical = directory.compare({"r1.exr", "r2.exr", "r1.exr", "--against", "b.exr"});
     CHECK(identical.exit_code == 1);
     CHECK(identical.err == "error: A1 and A3 have the same pixels; replicas need different seeds\n");

@@ -77,6 +77,16 @@ class PlumbTest(unittest.TestCase):
                 with self.assertRaises(plumb.Error):
                     found()
 
+    def test_parts_of_the_light_add_up_to_the_image(self):
+        image = plumb.render(self.scene, spp=8, split=["depth:3", "technique"])
+        for family in ("by_depth.", "by_technique."):
+            for color in "RGB":
+                parts = [values for name, values in image.channels.items()
+                         if name.startswith(family) and name.endswith("." + color)]
+                self.assertEqual(len(parts), 4 if family == "by_depth." else 3)
+                total = sum(values.astype(float) for values in parts).astype(np.float32)
+                np.testing.assert_array_equal(total, image.channels[color])
+
     def test_what_is_written_is_what_is_read(self):
         rng = np.random.default_rng(1)
         channels = {name: rng.random((7, 5), dtype=np.float32) for name in ("R", "G", "B", "variance.R", "a.very.long.name.of.a.layer.X")}

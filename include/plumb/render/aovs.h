@@ -82,6 +82,7 @@ class AovMeter {
 public:
     AovMeter(std::span<const std::string> names, const Scene& scene, const Camera& camera);
     bool empty() const { return wanted_.empty(); }
+    bool needs_surfaces() const; // else nobody needs to note them
 
     // Room for the values of one sample; each thread has its own.
     struct Values {

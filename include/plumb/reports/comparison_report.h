@@ -18,6 +18,7 @@ std::string comparison_json(const Comparison& comparison, const CompareSettings&
 
 // "0.0123", or "< 1e-300" for what is smaller: a p-value is never 0. digits: significant ones.
 std::string p_text(double p, int digits = 2);
+double p_number(double p); // likewise for JSON: at least 1e-300
 
 std::string_view verdict_word(Verdict verdict); // passes, differs, undecided
 int exit_code_of(Verdict verdict);              // 0, 3 or 4

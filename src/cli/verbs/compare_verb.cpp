@@ -3,10 +3,12 @@
 #include "cli/outputs.h"
 #include "cli/verb_file.h"
 
+#include "base/shell_words.h"
 #include "base/visible_text.h"
 #include "plumb/reports/comparison_report.h"
 #include "rendering/output_files.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace plumb {
@@ -20,6 +22,7 @@ struct Options : VerbOptions {
     bool difference_is_flip = false;
     std::string json;
     std::vector<std::string> a, b;
+    std::optional<std::uint64_t> replicas; // of each name with {replica}
 };
 
 // One image, or the mean of several.
@@ -38,6 +41,50 @@ std::string title(const char* side, const std::vector<std::string>& paths)
     return text + "\n";
 }
 
+// A shell makes "--against b1.exr b2.exr" of "--against b*.exr", and b2.exr would be a replica of A.
+void check_order(const Options& options)
+{
+    const std::vector<std::string> words = shell_split(options.typed);
+    const auto is_subject = [&](const std::string& word) {
+        return std::find(options.subjects.begin(), options.subjects.end(), word) != options.subjects.end();
+    };
+    for (std::size_t i = 0; i + 2 < words.size(); ++i)
+        if (const auto here = words.begin() + static_cast<std::ptrdiff_t>(i);
+            words[i] == "--against" && is_subject(words[i + 2]) &&
+            std::any_of(words.begin(), here, is_subject))
+            throw UsageError(
+                fmt::format("'{}' is behind --against, so it may be of A or of B; give each image of B an "
+                            "--against of its own, or use --replicas",
+                            words[i + 2]));
+}
+
+// The names with {replica} in their place by those of all replicas.
+std::vector<std::string> with_replicas(const std::vector<std::string>& names, std::uint64_t count)
+{
+    constexpr std::string_view mark = "{replica}";
+    std::vector<std::string> all;
+    for (const std::string& name : names) {
+        const std::size_t place = name.find(mark);
+        if (place == name.npos) {
+            all.push_back(name);
+            continue;
+        }
+        for (std::uint64_t replica = 1; replica <= count; ++replica)
+            all.push_back(std::string(name).replace(place, mark.size(), std::to_string(replica)));
+    }
+    return all;
+}
+
+void add_replicas(Options& options)
+{
+    if (!options.replicas) return;
+    const std::size_t before = options.a.size() + options.b.size();
+    for (std::vector<std::string>* side : {&options.a, &options.b})
+        *side = with_replicas(*side, *options.replicas);
+    if (options.a.size() + options.b.size() == before)
+        throw UsageError("--replicas needs a name with {replica} in it, such as 'mine_{replica}.exr'");
+}
+
 void settle(Options& options)
 {
     options.a = options.subjects;
@@ -51,7 +98,10 @@ void settle(Options& options)
             throw UsageError("compare needs two images; 'renderer compare --help' shows how");
         options.b = {options.a.back()};
         options.a.pop_back();
+    } else {
+        check_order(options);
     }
+    add_replicas(options);
     check_output_names({}, {{"--json", options.json}, {"--diff", options.difference}});
 }
 
@@ -118,6 +168,13 @@ OptionTable<Options> table()
                                                    throw UsageError(fmt::format("{} needs a file name", n));
                                                o.b.push_back(t);
                                            }}};
+    const OptionTable<Options> replicas = {{{Topic::verdict, "--replicas", "N",
+                                             "{replica} in a name, of A or of B, stands for 1 to N:\ncompare "
+                                             "'a_{replica}.exr' b.exr --replicas 8",
+                                             false, false},
+                                            [](Options& o, std::string_view n, const std::string& t) {
+                                                o.replicas = parse_integer(n, t, 2, 1000);
+                                            }}};
     const OptionTable<Options> samples = {
         {{Topic::verdict, "--spp", "COUNT", "samples per pixel of images whose headers do not say", false,
           false},
@@ -128,9 +185,9 @@ OptionTable<Options> table()
         return setting_options<Options>(Topic::verdict, &Options::settings, names);
     };
     return join<Options>({json_option<Options>(), difference, difference_of, quiet_option<Options>(),
-                          settings({"significance", "layer"}), against, settings({"exact", "variance-of"}),
-                          samples, settings({"no-verdict", "fail-percent", "max", "flip"}),
-                          help_option<Options>()});
+                          settings({"significance", "layer"}), against, replicas,
+                          settings({"exact", "variance-of"}), samples,
+                          settings({"no-verdict", "fail-percent", "max", "flip"}), help_option<Options>()});
 }
 
 } // namespace
