@@ -127,9 +127,12 @@ void keep_only(const Element*& kept, const Element& child, Diagnostics& diagnost
     }
     const SourceLocation first = kept->place(), second = child.place();
     const bool environment = child.tag == "emitter" && child.value("type") == "environment";
+    const std::string what = !environment ? fmt::format("<{}>", child.written_tag())
+                             : child.written_type() == "environment"
+                                 ? "'environment'"
+                                 : fmt::format("environment, '{}'", child.written_type());
     diagnostics.error(second, fmt::format("a second {}; there can be only one, and the first is at {} {}",
-                                          environment ? "'environment'" : fmt::format("<{}>", child.tag),
-                                          first.file == second.file ? "line" : first.file, first.line));
+                                          what, first.file == second.file ? "line" : first.file, first.line));
 }
 
 Element synthetic_element(const Element& at, std::string tag, const std::string& type)

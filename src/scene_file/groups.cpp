@@ -6,6 +6,7 @@
 #include "scene_file/placement.h"
 #include "scene_file/property_values.h"
 #include "scene_file/shared_objects.h"
+#include "scene_file/vocabulary.h"
 
 #include <algorithm>
 
@@ -183,7 +184,9 @@ Groups::Known* Groups::named(const Element& ref, LoadContext& context)
     }
     std::vector<std::string_view> known;
     for (const auto& [name, group] : by_id_) known.push_back(name);
-    context.diagnostics.error(id_place(ref), fmt::format("no <shape type=\"group\"> has the id '{}'{}", id,
+    const bool is_mitsuba = context.vocabulary && context.vocabulary->complete;
+    context.diagnostics.error(id_place(ref), fmt::format("no <shape type=\"{}\"> has the id '{}'{}",
+                                                         is_mitsuba ? "shapegroup" : "group", id,
                                                          known.empty() ? "" : way_out(id, known)));
     return nullptr;
 }

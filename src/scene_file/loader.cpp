@@ -14,6 +14,7 @@
 #include "scene_file/mitsuba_words.h"
 #include "scene_file/nori_words.h"
 
+#include <algorithm>
 #include <chrono>
 #include <future>
 #include <utility>
@@ -80,7 +81,10 @@ bool check_root(const Element& root, Diagnostics& diagnostics)
                        const std::vector<std::shared_ptr<const TextFile>>& files)
 {
     std::vector<Diagnostic> all = in_file_order(diagnostics.all(), files);
-    if (diagnostics.has_only_unsupported())
+    const auto names_the_option = [](const Diagnostic& one) {
+        return one.message.find("--lenient") != std::string::npos;
+    };
+    if (diagnostics.has_only_unsupported() && std::none_of(all.begin(), all.end(), names_the_option))
         all.push_back(
             {Severity::note, {}, "--lenient leaves out what is not supported, with a warning for each"});
     throw SceneError(std::move(all));

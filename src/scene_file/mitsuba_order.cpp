@@ -40,13 +40,17 @@ public:
             kept.push_back(std::move(child));
         }
         // Unless it was refused.
-        if (!has_camera_ && !diagnostics_.has_errors())
+        const bool is_whole = !diagnostics_.has_errors();
+        if (!has_camera_ && is_whole)
             diagnostics_.error(
                 root_.place(),
                 "the scene has no <sensor>; write <sensor type=\"perspective\"> ... </sensor>");
-        if (!has_integrator_ && !diagnostics_.has_errors())
+        if (!has_integrator_ && is_whole)
             diagnostics_.error(root_.place(),
                                "the scene has no <integrator>; write <integrator type=\"path\"/>");
+        // So that it is said once.
+        if (!has_camera_) kept.push_back(made_object(root_, "camera", "perspective"));
+        if (!has_integrator_) kept.push_back(made_object(root_, "integrator", "path_mis"));
         if (sampler_) kept.push_back(*std::move(sampler_));
         if (aovs_at_) {
             set_attribute(*aovs_at_, "value", aovs_);

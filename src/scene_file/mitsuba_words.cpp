@@ -14,6 +14,8 @@ namespace plumb {
 namespace {
 
 constexpr std::string_view vacuum = "Plumb renders surfaces in a vacuum only";
+constexpr std::string_view unpolarised =
+    "Plumb's light is not polarised; a 'mask' of opacity 0.5 around a black 'diffuse' absorbs as much of it";
 constexpr std::string_view as_mesh = "export it as a mesh";
 constexpr std::string_view as_envmap = "tools/bake_sky makes an 'envmap' and a 'directional' light of it";
 constexpr std::string_view same_light =
@@ -333,25 +335,27 @@ constexpr Refusal refusals[] = {
     {"shape", "linearcurve", as_mesh},
     {"shape", "ellipsoids", as_mesh},
     {"shape", "ellipsoidsmesh", as_mesh},
-    {"bsdf", "hair", "use 'principled'"},
+    {"bsdf", "hair", "use 'principled' on a mesh of the hair"},
     {"bsdf", "measured", "use 'principled', or 'roughconductor' with a material"},
     {"bsdf", "measured_polarized", "use 'principled', or 'roughconductor' with a material"},
-    {"bsdf", "polarizer", "Plumb's light is not polarised"},
-    {"bsdf", "retarder", "Plumb's light is not polarised"},
-    {"bsdf", "circular", "Plumb's light is not polarised"},
+    {"bsdf", "polarizer", unpolarised},
+    {"bsdf", "retarder",
+     "Plumb's light is not polarised, and passes a 'null' surface as it would pass this one"},
+    {"bsdf", "circular", unpolarised},
     {"bsdf", "pplastic", "use 'roughplastic'"},
     {"emitter", "sunsky", as_envmap},
     {"emitter", "timed_sunsky", as_envmap},
     {"emitter", "sky", as_envmap},
     {"emitter", "directionalarea", "use 'projector' or 'spot' with a small angle, or 'directional'"},
-    {"texture", "volume", vacuum},
-    {"camera", "irradiancemeter", "use 'perspective'"},
+    {"texture", "volume", "use 'bitmap', or 'mesh_attribute' for values at vertices"},
+    {"camera", "irradiancemeter",
+     "use 'perspective', and look at a white 'diffuse' surface: it shows irradiance / pi"},
     {"camera", "radiancemeter", "use 'perspective' with a small fov"},
     {"camera", "distant", "use 'orthographic'"},
     {"camera", "batch", "write one file for each sensor"},
     {"film", "specfilm", "use 'hdrfilm'"},
     {"film", "ldrfilm", "use 'hdrfilm'; 'renderer' also writes .png"},
-    {"integrator", "stokes", "Plumb's light is not polarised"},
+    {"integrator", "stokes", "Plumb's light is not polarised; write the integrator that is inside it alone"},
 };
 
 constexpr Ignored ignored[] = {

@@ -152,13 +152,17 @@ private:
     enum class Outcome { fine, stands_in, left_out };
 
     // What is refused stays as something that cannot be built, and of which nothing more is said; --lenient leaves it out.
-    Outcome refuse(Element& element, const SourceLocation& at, const std::string& message)
+    Outcome refuse(Element& element, const SourceLocation& at, const std::string& message,
+                   bool is_misspelled = false)
     {
         if (options_.lenient) {
             diagnostics_.warning(at, message + "; it is left out");
             return Outcome::left_out;
         }
-        diagnostics_.unsupported(at, message, false);
+        if (is_misspelled)
+            diagnostics_.error(at, message);
+        else
+            diagnostics_.unsupported(at, message, false);
         element.children.clear();
         find_attribute(element, "type")->broken = true;
         return Outcome::stands_in;
@@ -185,7 +189,8 @@ private:
             for (const TypeName& name : from->types)
                 if (name.kind == kind) known.push_back(name.theirs);
         return refuse(element, at,
-                      fmt::format("unknown {} '{}'{}", element.written_tag(), type, way_out(type, known)));
+                      fmt::format("unknown {} '{}'{}", element.written_tag(), type, way_out(type, known)),
+                      !closest_name(type, known).empty());
     }
 
     // A type that is not our own either, of a kind that a scene can do without.
