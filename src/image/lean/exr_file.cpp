@@ -46,7 +46,12 @@ bool ExrInput::Stream::read(char bytes[], int count)
     return position_ < file_.size();
 }
 
-ExrInput::ExrInput(const std::string& name) : stream_((start_threads(), name)), file_(stream_)
+ExrInput::Stream::Stream(const std::string& name) : Imf::IStream(name.c_str()), file_(name)
+{
+    start_threads(); // before the file asks for them
+}
+
+ExrInput::ExrInput(const std::string& name) : stream_(name), file_(stream_)
 {
     const Imf::Header& header = file_.header(0);
     if (header.hasType() && Imf::isDeepData(header.type()))

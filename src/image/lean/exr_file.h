@@ -33,7 +33,7 @@ public:
 private:
     class Stream final : public Imf::IStream {
     public:
-        explicit Stream(const std::string& name) : Imf::IStream(name.c_str()), file_(name) {}
+        explicit Stream(const std::string& name);
         bool read(char bytes[], int count) override;
         std::uint64_t tellg() override { return position_; }
         void seekg(std::uint64_t position) override { position_ = position; }
