@@ -37,11 +37,19 @@ std::string kind_of(Severity severity, std::string_view message)
 
 } // namespace
 
+void Diagnostics::unsupported(const SourceLocation& at, std::string message, bool lenient)
+{
+    const bool had_others = has_other_errors_;
+    add(lenient ? Severity::warning : Severity::error, at, std::move(message));
+    has_other_errors_ = had_others;
+}
+
 void Diagnostics::add(Severity severity, const SourceLocation& at, std::string message)
 {
     if (severity == Severity::note && leaves_out_notes_) return;
     if (message.size() > longest_message) message = cut(std::move(message), longest_message);
     has_errors_ = has_errors_ || severity == Severity::error;
+    has_other_errors_ = has_other_errors_ || severity == Severity::error;
     std::string key = at.file + ":" + std::to_string(at.line) + ":" + std::to_string(at.column) + ": " +
                       std::to_string(static_cast<int>(severity)) + message;
     if (seen_.contains(key)) return;
@@ -75,6 +83,7 @@ bool Diagnostics::count(std::string kind, Severity severity)
 
 void Diagnostics::add(const Diagnostics& others)
 {
+    const bool has_others = has_other_errors_ || others.has_other_errors_;
     for (const Diagnostic& other : others.diagnostics_) add(other.severity, other.location, other.message);
     for (const auto& [kind, counted] : others.kinds_) {
         const auto same = kinds_.find(kind); // not there if none of that kind was kept
@@ -85,6 +94,7 @@ void Diagnostics::add(const Diagnostics& others)
     for (std::size_t i = 0; i < std::size(severities_); ++i)
         severities_[i].left_out += others.severities_[i].left_out;
     has_errors_ = has_errors_ || others.has_errors_;
+    has_other_errors_ = has_others;
 }
 
 bool Diagnostics::keeps(Severity severity, std::string_view message) const

@@ -60,6 +60,41 @@ std::optional<fs::path> path_like(const fs::path& directory, const fs::path& nam
     return path.lexically_normal();
 }
 
+bool is_file(const fs::path& path)
+{
+    std::error_code ignored;
+    return fs::is_regular_file(path, ignored);
+}
+
+bool is_of_windows(const std::string& name)
+{
+    return name.size() > 2 && name[1] == ':' && name[2] == '/' &&
+           ((name[0] >= 'A' && name[0] <= 'Z') || (name[0] >= 'a' && name[0] <= 'z'));
+}
+
+// A path on somebody else's computer: as much of its end as names a file beside the scene; or of a relative one, which is
+// relative to the directory in which somebody ran the program, in a directory that the scene's is in.
+std::optional<fs::path> elsewhere(const fs::path& directory, const std::string& slashes)
+{
+    constexpr int levels = 8;
+    const fs::path name = is_of_windows(slashes) ? fs::path(slashes.substr(2)) : fs::path(slashes);
+    fs::path rest;
+    for (const fs::path& part : name.relative_path())
+        if (!rest.empty() || part != "..") rest /= part;
+    if (name.is_absolute()) {
+        for (; !rest.empty(); rest = rest.lexically_relative(*rest.begin()))
+            if (const fs::path path = (directory / rest).lexically_normal(); is_file(path)) return path;
+        return {};
+    }
+    if (!rest.has_parent_path()) return {}; // there are many files of one name
+    fs::path above = directory;
+    for (int i = 0; i < levels; ++i) {
+        above /= "..";
+        if (const fs::path path = (above / rest).lexically_normal(); is_file(path)) return path;
+    }
+    return {};
+}
+
 std::string way_out_of(const fs::path& directory, const fs::path& name)
 {
     // The names in another spelling; and the file alone, of a path on somebody else's computer.
@@ -91,6 +126,10 @@ NamedFile find_named_file(const fs::path& directory, const std::string& name)
                                 "find another file or none; write '{}'",
                                 here.string(), directory.string(), seen_from(directory, here))};
     }
+    if (const auto path = elsewhere(directory, slashes))
+        return {*path,
+                {},
+                fmt::format("'{}' does not exist; '{}' is read instead", name, seen_from(directory, *path))};
     return {beside, way_out_of(directory, slashes), {}};
 }
 

@@ -24,7 +24,7 @@ namespace plumb {
 ///     metallic         float or texture   fraction that is a metal, in [0, 1]                                (default 0)
 ///     specTrans        float or texture   fraction of the rest that refracts, in [0, 1]                      (default 0)
 ///     eta              float              index inside over outside, in [0.01, 100]; not 1 (1.001 then)      (default: specular's)
-///     specular         float              eta = 2 / (1 - sqrt(0.08 specular)) - 1, in [0, 1]; not with eta   (default 0.5)
+///     specular         float              eta = 2 / (1 - sqrt(0.08 specular)) - 1, in [0, 12]; not with eta  (default 0.5)
 ///     specTint         float or texture   how much specular reflection has the base's hue, in [0, 1]         (default 0)
 ///     sheen            float or texture   reflection along the surface, as of cloth, in [0, 1]               (default 0)
 ///     sheenTint        float or texture   how much of it has the base's hue, in [0, 1]                       (default 0)
@@ -131,7 +131,7 @@ private:
 
     static float eta_of(const Params& params)
     {
-        const float specular = params.number("specular", -1.f, Range::closed(0.0, 1.0));
+        const float specular = params.number("specular", -1.f, Range::closed(0.0, 12.0));
         const float given = params.number("eta", 0.f, Range::closed(0.01, 100.0));
         if (given > 0.f && specular >= 0.f) params.fail("specular", "cannot be given together with eta");
         const float eta =

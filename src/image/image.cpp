@@ -5,6 +5,7 @@
 #include "plumb/image/image.h"
 
 #include "base/regular_file.h"
+#include "image/chromaticities.h"
 #include "image/image_file.h"
 #include "image/image_module.h"
 #include "plumb/base/error.h"
@@ -13,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <new>
 #include <span>
 
@@ -101,7 +103,7 @@ std::vector<float> integer_values(std::size_t size, bool decode_srgb)
     return values;
 }
 
-// The floats that OpenImageIO made of integers, made exact and, but for alpha, decoded.
+// The floats that the module made of integers, made exact and, but for alpha, decoded.
 void convert_integers(const DecodedImage& image, bool decode_srgb)
 {
     const std::size_t size = image.integer_levels;
@@ -117,6 +119,35 @@ void convert_integers(const DecodedImage& image, bool decode_srgb)
         const auto integer = static_cast<std::size_t>(std::lround(values[i] * largest));
         values[i] = (is_alpha ? plain : decoded)[std::min(integer, size - 1)];
     }
+}
+
+// Colours of another colour space become linear sRGB.
+void convert_colors(DecodedImage& image)
+{
+    const auto from = chromaticities_of(image.metadata);
+    const auto matrix = from ? to_srgb(*from) : std::nullopt;
+    if (!matrix) return;
+    std::size_t at[3];
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto found = std::find(image.channels.begin(), image.channels.end(), std::string(1, "RGB"[i]));
+        if (found == image.channels.end()) return; // not of colours
+        at[i] = static_cast<std::size_t>(found - image.channels.begin());
+    }
+    if (std::find(image.channels.begin(), image.channels.end(), "variance.R") != image.channels.end())
+        throw Error("its colours are not linear sRGB, and the variances beside them cannot be converted");
+    const std::size_t pixels =
+        static_cast<std::size_t>(image.data.width) * static_cast<std::size_t>(image.data.height);
+    for (std::size_t i = 0; i < pixels; ++i) {
+        float* const pixel = image.buffer->pixels() + i * image.channels.size();
+        const double color[3] = {static_cast<double>(pixel[at[0]]), static_cast<double>(pixel[at[1]]),
+                                 static_cast<double>(pixel[at[2]])};
+        for (std::size_t c = 0; c < 3; ++c)
+            pixel[at[c]] = static_cast<float>((*matrix)[3 * c] * color[0] + (*matrix)[3 * c + 1] * color[1] +
+                                              (*matrix)[3 * c + 2] * color[2]);
+    }
+    for (auto& [name, value] : image.metadata)
+        if (name == chromaticities_name)
+            value = std::vector<float>(srgb_chromaticities.begin(), srgb_chromaticities.end());
 }
 
 // read(module, name), with what it throws in our words.
@@ -153,7 +184,10 @@ Image read_image(const std::filesystem::path& path, bool decode_srgb)
     };
     return read_file(path, [&](const ImageModule& module, const std::string& name) {
         DecodedImage image = module.read(name);
-        if (image.integer_levels > 0) convert_integers(image, decode_srgb);
+        if (image.integer_levels > 0)
+            convert_integers(image, decode_srgb);
+        else if (decode_srgb)
+            convert_colors(image);
         return make(image);
     });
 }
@@ -162,6 +196,20 @@ std::optional<ByteImage> read_byte_image(const std::filesystem::path& path)
 {
     return read_file(
         path, [](const ImageModule& module, const std::string& name) { return module.read_bytes(name); });
+}
+
+bool is_jpeg(const std::filesystem::path& path)
+{
+    constexpr std::string_view magic = "\xff\xd8\xff";
+    if (!problem_of_file(path).empty()) return false;
+    std::ifstream file(path, std::ios::binary);
+    char start[magic.size()] = {};
+    return file.read(start, sizeof start) && std::string_view(start, sizeof start) == magic;
+}
+
+std::string jpeg_decoder()
+{
+    return image_module().jpeg_decoder();
 }
 
 std::array<float, 256> byte_values(bool decode_srgb)

@@ -294,9 +294,12 @@ void Params::reject_unused() const
     const auto reject = [&](std::string_view what, std::string_view name, const SourceLocation& at) {
         const std::string rest =
             known.empty() ? "; it takes none" : way_out(std::string(as_written(name)), known);
-        diagnostics_.add(lenient_ ? Severity::warning : Severity::error, at,
-                         fmt::format("unknown {} '{}' for {} '{}'{}", what, as_written(name), written_kind(),
-                                     written_type(), rest));
+        const std::string message = fmt::format("unknown {} '{}' for {} '{}'{}", what, as_written(name),
+                                                written_kind(), written_type(), rest);
+        if (closest_name(as_written(name), known).empty())
+            diagnostics_.unsupported(at, message, lenient_);
+        else // a misspelling
+            diagnostics_.add(lenient_ ? Severity::warning : Severity::error, at, message);
     };
     for (const auto& [name, property] : properties_)
         if (!property.asked) reject("parameter", name, property.name_at);

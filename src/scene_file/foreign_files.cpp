@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "scene_file/foreign_files.h"
 
+#include "scene_file/mitsuba_words.h"
+
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -87,11 +89,11 @@ std::optional<std::string> foreign_content(std::string_view text)
 std::optional<Diagnostic> foreign_scene(const Element& root)
 {
     if (root.tag != "scene" || root.attribute("dialect")) return {};
-    if (const Attribute* version = root.attribute("version"))
+    if (is_mitsuba_scene(root))
         return Diagnostic{
-            Severity::error, root.name_place(*version),
+            Severity::error, root.name_place(*root.attribute("version")),
             fmt::format("this is a scene of Mitsuba {}, which one of Plumb's own scenes cannot include",
-                        version->value)};
+                        root.value("version"))};
     const Element* found = find_mitsuba(root);
     if (!found) return {};
     return Diagnostic{Severity::error, found->place(),

@@ -28,7 +28,6 @@ constexpr ForeignName names[] = {
     {"tag", "blackbody", "", "write it as a <color>"},
     {"tag", "film", "", "width and height are parameters of <camera>"},
     {"tag", "light", "emitter", ""},
-    {"tag", "luminaire", "emitter", ""},
     {"tag", "material", "bsdf", ""},
     {"tag", "brdf", "bsdf", ""},
     {"tag", "filter", "rfilter", ""},

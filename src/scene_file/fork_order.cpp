@@ -83,6 +83,31 @@ public:
         if (kind == "shape") order_shape(element);
         if (kind == "emitter" && type == "environment") order_environment(element);
         if (kind == "emitter" && type == "spot") order_spot(element);
+        if (kind == "camera") order_camera(element);
+    }
+
+    // What surrounds all is said to stand in a sphere around all.
+    void take_environments_out(Element& root)
+    {
+        std::vector<Element> kept;
+        kept.reserve(root.children.size());
+        for (Element& child : root.children) {
+            const auto is_environment = [](const Element& inner) {
+                return inner.tag == "emitter" && inner.value("type") == "environment";
+            };
+            const auto found = std::find_if(child.children.begin(), child.children.end(), is_environment);
+            if (kind_of_tag(child.tag) != "shape" || found == child.children.end()) {
+                kept.push_back(std::move(child));
+                continue;
+            }
+            diagnostics_.warning(child.place(),
+                                 fmt::format("the {} around an environment is left out: the light of an "
+                                             "environment comes from infinitely far away",
+                                             child.written_type()));
+            Element emitter = std::move(*found);
+            kept.push_back(std::move(emitter));
+        }
+        root.children = std::move(kept);
     }
 
 private:
@@ -204,13 +229,53 @@ private:
         }
     }
 
-    // Who says where the fall-off starts means pbrt's.
-    static void order_spot(Element& emitter)
+    // A switch of the lens.
+    void order_camera(Element& camera)
     {
+        constexpr std::string_view names[] = {"dof", "usedof", "enabledof", "depthoffield"};
+        const auto is_switch = [&](const Element& child) {
+            return child.tag == "boolean" && std::find(std::begin(names), std::end(names),
+                                                       folded(child.value("name"))) != std::end(names);
+        };
+        const auto found = std::find_if(camera.children.begin(), camera.children.end(), is_switch);
+        const Attribute* value = found == camera.children.end() ? nullptr : found->attribute("value");
+        if (!value) return;
+        const bool is_on = read_boolean(*found, *value, diagnostics_).value_or(true);
+        std::erase_if(camera.children, [&](const Element& child) {
+            return is_switch(child) || (!is_on && child.value("name") == "lensRadius");
+        });
+    }
+
+    // Who says where the fall-off starts means pbrt's. Where it does not, there is none.
+    void order_spot(Element& emitter)
+    {
+        Element* start = child_named(emitter, "falloff");
+        if (start && start->tag == "float" && angle_of_cosine(*start, diagnostics_))
+            rename_attribute_value(*start, "name", "beamWidth");
+        limit_beam(emitter);
         const Element* beam = child_named(emitter, "beamWidth");
         if (beam && folded(beam->written_name()).find("falloff") != std::string::npos &&
             !child_named(emitter, "falloff"))
             emitter.children.push_back(made_parameter(emitter, "string", "falloff", "quartic"));
+    }
+
+    // Forks say 50 degrees for the start of a fall-off that ends at 30.
+    void limit_beam(Element& emitter)
+    {
+        Element* beam = child_named(emitter, "beamWidth");
+        const Element* cutoff = child_named(emitter, "cutoffAngle");
+        if (!beam || !cutoff || beam->written_name() == beam->value("name")) return;
+        const Attribute *from = beam->attribute("value"), *to = cutoff->attribute("value");
+        if (!from || !to) return;
+        Diagnostics ignored; // whoever builds it reports it
+        const auto begin = read_number(*beam, *from, ignored), end = read_number(*cutoff, *to, ignored);
+        if (!begin || !end || *begin <= *end) return;
+        diagnostics_.warning(
+            beam->value_place(*from),
+            fmt::format("the light would fall off from {} degrees on, but ends at {}; it does "
+                        "not fall off",
+                        *begin, *end));
+        set_attribute(*beam, "value", fmt::format("{}", *end));
     }
 
     Diagnostics& diagnostics_;
@@ -220,7 +285,9 @@ private:
 
 void order_forks(Element& root, Diagnostics& diagnostics)
 {
-    Order(diagnostics).visit(root);
+    Order order(diagnostics);
+    order.visit(root);
+    order.take_environments_out(root);
 }
 
 } // namespace plumb

@@ -47,6 +47,17 @@ bool negated(Element& parameter, Diagnostics& diagnostics)
     return true;
 }
 
+bool grey_color(Element& parameter, Diagnostics& diagnostics)
+{
+    const Attribute* value = parameter.attribute("value");
+    if (!value || (parameter.tag != "float" && parameter.tag != "integer")) return true;
+    const auto number = read_number(parameter, *value, diagnostics);
+    if (!number) return false;
+    rename_tag(parameter, "color");
+    set_attribute(parameter, "value", fmt::format("{0} {0} {0}", *number));
+    return true;
+}
+
 namespace {
 
 bool to_texture(Element& parameter, bool raw)

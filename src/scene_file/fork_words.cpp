@@ -11,6 +11,14 @@ constexpr std::string_view no_media =
     "this is rendered by 'path_mis': in a scene without media the light is the same";
 constexpr std::string_view no_alpha = "'alphaTexture' is not used; a 'mask' around the BSDF makes holes";
 constexpr std::string_view vacuum = "Plumb renders surfaces in a vacuum only";
+constexpr std::string_view under_surface =
+    "Plumb's light does not go on below surfaces; use 'principled' with flatness";
+constexpr std::string_view not_used = "'{}' is not used: {} '{}' has no such parameter";
+
+constexpr TagName tags[] = {
+    {"luminaire", "emitter"},
+    {"envmap", "emitter"},
+};
 
 // Counted in 939 public scene files that no course's words explain. What several forks call differently is one row for
 // each name; `like` names the type whose parameters they share.
@@ -116,6 +124,11 @@ constexpr TypeName types[] = {
     {"bsdf", "smooth_conductor", "conductor", {}, "conductor"},
     {"bsdf", "roughglass", "roughdielectric", {}, "roughdielectric"},
     {"bsdf", "frosted_glass", "roughdielectric", {}, "roughdielectric"},
+    {"bsdf", "microfacet_dielectric", "roughdielectric", {}, "roughdielectric"},
+    {"bsdf", "microfacet_conductor", "roughconductor", {}, "roughconductor"},
+    {"bsdf", "layered", "coating", {}, "coating"},
+    {"bsdf", "dielectric_coated_diffuse", "plastic", {}, "plastic"},
+    {"bsdf", "coated_diffuse", "plastic", {}, "plastic"},
     {"bsdf", "blendbsdf", "blend", {}, "blend"},
     {"bsdf", "mix", "blend", {}, "blend"},
     {"bsdf", "normal_map", "normalmap", {}, "normalmap"},
@@ -240,6 +253,7 @@ constexpr ParamName params[] = {
     {"bsdf", "disney", "specular", "specular", to_fraction},
     {"bsdf", "disney", "roughnessTexture", "roughness", data_image_of},
     {"bsdf", "disney", "metallicTexture", "metallic", data_image_of},
+    {"bsdf", "disney", "texture_filename", "baseColor", image_of},
     {"bsdf", "disney", "ior", "eta"},
     {"bsdf", "disney", "IOR", "eta"},
     {"bsdf", "disney", "intIOR", "eta"},
@@ -249,6 +263,9 @@ constexpr ParamName params[] = {
     {"bsdf", "", "normal_texture", "normal"},
     {"bsdf", "", "normals", "normal"},
     {"bsdf", "", "normalTexture", "normal", data_image_of},
+    {"bsdf", "", "normal_filename", "normal", data_image_of},
+    {"bsdf", "", "normalFile", "normal", data_image_of},
+    {"bsdf", "", "normalFilename", "normal", data_image_of},
     {"bsdf", "", "normalMapFile", "normal", data_image_of},
     {"bsdf", "", "bump", "height"},
     {"bsdf", "", "bump_map", "height"},
@@ -268,6 +285,25 @@ constexpr ParamName params[] = {
     {"bsdf", "diffuse", "albedoTexture", "albedo", image_of},
     {"bsdf", "diffuse", "albedo_texture", "albedo", image_of},
     {"bsdf", "diffuse", "diffuseTexture", "albedo", image_of},
+    {"bsdf", "diffuse", "texture_filename", "albedo", image_of},
+    {"bsdf", "diffuse", "textureFilename", "albedo", image_of},
+    {"bsdf", "diffuse", "textureFile", "albedo", image_of},
+    {"bsdf", "diffuse", "texture_file", "albedo", image_of},
+    {"bsdf", "diffuse", "textFile", "albedo", image_of},
+    {"bsdf", "diffuse", "texturePath", "albedo", image_of},
+    {"bsdf", "diffuse", "texture_path", "albedo", image_of},
+    {"bsdf", "diffuse", "diffuse_texture", "albedo", image_of},
+    {"bsdf", "diffuse", "filename", "albedo", image_of},
+    {"bsdf", "diffuse", "path", "albedo", image_of},
+    {"bsdf", "diffuse", "image", "albedo", image_of},
+    {"bsdf", "conductor", "eta", "eta", grey_color},
+    {"bsdf", "conductor", "k", "k", grey_color},
+    {"bsdf", "conductor", "specularReflectance", "specularReflectance", grey_color},
+    {"bsdf", "coating", "absorption", "sigmaA"},
+    {"bsdf", "plastic", "albedo", "diffuseReflectance"},
+    {"bsdf", "plastic", "kd", "diffuseReflectance"},
+    {"bsdf", "microfacet", "albedo", "kd"},
+    {"bsdf", "microfacet", "m_alpha", "alpha"},
     {"bsdf", "dielectric", "ior", "intIOR"},
     {"bsdf", "dielectric", "IOR", "intIOR"},
     {"bsdf", "dielectric", "eta", "intIOR"},
@@ -282,6 +318,8 @@ constexpr ParamName params[] = {
     {"emitter", "area", "emission", "radiance"},
     {"emitter", "area", "emittance", "radiance"},
     {"emitter", "area", "intensity", "radiance"},
+    {"emitter", "area", "albedo", "radiance"},
+    {"emitter", "area", "texture", "radiance", image_of},
     {"emitter", "point", "intensity", "radiance"},
     {"emitter", "point", "origin", "position"},
     {"emitter", "directional", "irradiance", "radiance"},
@@ -302,6 +340,7 @@ constexpr ParamName params[] = {
     {"emitter", "envmap", "bitmap", "filename"},
     {"emitter", "envmap", "file_path", "filename"},
     {"emitter", "envmap", "filepath", "filename"},
+    {"emitter", "envmap", "OpenEXR", "filename"},
     {"emitter", "envmap", "strength", "scale"},
     {"emitter", "envmap", "intensity", "scale"},
     {"emitter", "envmap", "weight", "scale"},
@@ -311,6 +350,8 @@ constexpr ParamName params[] = {
     {"emitter", "environment", "file", "filename"},
     {"emitter", "environment", "path", "filename"},
     {"emitter", "environment", "color", "radiance"},
+    {"emitter", "environment", "strength", "scale"},
+    {"emitter", "environment", "intensity", "scale"},
     {"emitter", "spot", "origin", "position"},
     {"emitter", "spot", "from", "position"},
     {"emitter", "spot", "lookat", "target"},
@@ -334,6 +375,8 @@ constexpr ParamName params[] = {
     {"emitter", "spot", "FalloffStart", "beamWidth", angle_of_cosine},
     {"emitter", "spot", "falloffstart", "beamWidth", angle_of_cosine},
     {"emitter", "spot", "falloff_start", "beamWidth", angle_of_cosine},
+    {"emitter", "spot", "theta", "cutoffAngle"},
+    {"emitter", "spot", "thetaFalloff", "beamWidth"},
     {"emitter", "spot", "falloff_angle", "beamWidth", angle_of_cosine},
     {"emitter", "spot", "beam_width", "beamWidth"},
     {"texture", "bitmap", "file", "filename"},
@@ -390,6 +433,16 @@ constexpr ParamName params[] = {
     {"camera", "", "near_clip", "nearClip"},
     {"camera", "", "far_clip", "farClip"},
     {"shape", "", "to_world", "toWorld"},
+    {"shape", "", "normal_map", "normal", data_image_of},
+    {"shape", "", "normalMap", "normal", data_image_of},
+    {"shape", "", "normalmap", "normal", data_image_of},
+    {"shape", "", "normalFile", "normal", data_image_of},
+    {"shape", "", "normal_file", "normal", data_image_of},
+    {"shape", "", "normalTexture", "normal", data_image_of},
+    {"shape", "", "normal_texture", "normal", data_image_of},
+    {"shape", "", "bump_map", "height", data_image_of},
+    {"shape", "", "bumpMap", "height", data_image_of},
+    {"shape", "", "bumpmap", "height", data_image_of},
 };
 
 // Burley's own defaults, and the sphere of directions of Nori's common.h: theta from +z, phi from +x to +y.
@@ -419,25 +472,42 @@ constexpr Ignored ignored[] = {
     {"emitter", "", "sampling_weight"},
     {"emitter", "", "nSamples"},
     {"emitter", "", "samples"},
+    {"camera", "", "origin"}, // of which toWorld says more
+    {"texture", "textmap", "interpolation"},
+    {"texture", "textmap", "extension"},
+    {"texture", "textmap", "projection"},
+    {"texture", "bitmap", "interpolation"},
+    {"texture", "bitmap", "extension"},
+    {"texture", "bitmap", "projection"},
+    {"emitter", "environment", "interpolate"},
+    {"emitter", "envmap", "interpolate"},
+    {"emitter", "envmap", "sphereTexture"},
     {"emitter", "envmap", "luminanceScale"},
     {"emitter", "envmap", "cache"},
+    // The light is the same, however it is found; and what diffuse surfaces and mirrors do is said by their type.
+    {"integrator", "", "*", not_used, true},
+    {"sampler", "", "*", not_used, true},
+    {"bsdf", "diffuse", "*", not_used, true},
+    {"bsdf", "mirror", "*", not_used, true},
 };
 
 constexpr Refusal refusals[] = {
-    {"medium", "", vacuum, true},
-    {"phase", "", vacuum, true},
-    {"volume", "", vacuum, true},
+    {"medium", "", vacuum, true},      {"phase", "", vacuum, true},
+    {"volume", "", vacuum, true},      {"bsdf", "subsurface", under_surface},
+    {"bsdf", "bssrdf", under_surface}, {"bsdf", "merl", "use 'principled'"},
 };
 
 } // namespace
 
 constinit const Vocabulary fork_words = {.name = "forks",
+                                         .tags = tags,
                                          .types = types,
                                          .params = params,
                                          .presets = presets,
                                          .refusals = refusals,
                                          .ignored = ignored,
                                          .folds = true,
-                                         .order = order_forks};
+                                         .order = order_forks,
+                                         .guess = guess_fork_type};
 
 } // namespace plumb

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "base/parallel.h"
 #include "plumb/base/hash.h"
+#include "plumb/image/image.h"
 #include "plumb/scene/scene.h"
 #include "plumb/scene_file/scene_file.h"
 #include "scene_file/after_load.h"
@@ -38,6 +39,7 @@ std::vector<InputFile> input_files(const Expansion& expansion, const std::vector
     for (const std::filesystem::path& file : read) files.push_back({file, {}});
     parallel_for(files.size(), 0, [&](std::size_t i) {
         files[i].hash = i < first ? sha256(expansion.files[i]->text()) : sha256_of_file(read[i - first]);
+        files[i].is_jpeg = i >= first && is_jpeg(read[i - first]);
     });
     return files;
 }
@@ -77,7 +79,11 @@ bool check_root(const Element& root, Diagnostics& diagnostics)
 [[noreturn]] void fail(const Diagnostics& diagnostics,
                        const std::vector<std::shared_ptr<const TextFile>>& files)
 {
-    throw SceneError(in_file_order(diagnostics.all(), files));
+    std::vector<Diagnostic> all = in_file_order(diagnostics.all(), files);
+    if (diagnostics.has_only_unsupported())
+        all.push_back(
+            {Severity::note, {}, "--lenient leaves out what is not supported, with a warning for each"});
+    throw SceneError(std::move(all));
 }
 
 } // namespace
@@ -106,6 +112,8 @@ struct SceneFile::Impl {
         if (!document || !check_root(*document, diagnostics)) fail(diagnostics, {});
         const Definitions definitions(settings.definitions.begin(), settings.definitions.end());
         is_mitsuba = is_mitsuba_scene(*document);
+        if (!is_mitsuba && !document->attribute("dialect"))
+            std::erase_if(document->attributes, [](const Attribute& a) { return a.name == "version"; });
         return is_mitsuba ? expand_mitsuba(*std::move(document), definitions, diagnostics)
                           : expand(*std::move(document), definitions, diagnostics);
     }
@@ -118,7 +126,10 @@ struct SceneFile::Impl {
         if (!words) fail(diagnostics, expansion.files);
         const Readings readings(choice.dialect, wishes);
         return arrange(std::move(expansion.root), *words,
-                       {.overrides = readings.presets(), .lenient = settings.lenient}, diagnostics);
+                       {.overrides = readings.presets(),
+                        .lenient = settings.lenient,
+                        .unset = choice.evidence.has_value()},
+                       diagnostics);
     }
 
     const Clock::time_point start = Clock::now();

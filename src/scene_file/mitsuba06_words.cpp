@@ -170,6 +170,10 @@ constexpr std::string_view near_diffuse = "this is rendered as 'diffuse'";
 
 constexpr TypeName types[] = {
     {"integrator", "volpath_simple", "path_mis"},
+    {"integrator", "adaptive", "adaptive",
+     "the integrator inside it is rendered, with as many samples everywhere"},
+    {"integrator", "irrcache", "irrcache",
+     "the integrator inside it is rendered, which finds the same light up to noise"},
     {"integrator", "erpt", "path_mis", "this is rendered by 'path', which finds the same light up to noise"},
     {"film", "ldrfilm", "hdrfilm"},
     {"sampler", "sobol", "sobol"},
@@ -185,6 +189,8 @@ constexpr TypeName types[] = {
 };
 
 constexpr ParamName params[] = {
+    {"integrator", "adaptive", "*", ""}, // their child takes their place
+    {"integrator", "irrcache", "*", ""},
     {"bsdf", "diffuse", "diffuse_reflectance", "albedo", color_of_reflectance},
     {"bsdf", "roughdiffuse", "reflectance", "albedo", color_of_reflectance},
     {"bsdf", "roughdiffuse", "diffuse_reflectance", "albedo", color_of_reflectance},
@@ -214,7 +220,7 @@ constexpr Preset presets[] = {
 };
 
 constexpr Refusal refusals[] = {
-    {"emitter", "sun", "use 'directional'"},
+    {"emitter", "sun", "use 'directional', or tools/bake_sky"},
     {"emitter", "collimated", "use 'spot' with a small cutoffAngle"},
     {"texture", "scale", "scale the image itself"},
     {"texture", "vertexcolors", "export the mesh as .ply and use 'mesh_attribute'"},

@@ -3,6 +3,7 @@
 
 #include "base/text.h"
 #include "plumb/render/channel_set.h"
+#include "scene_file/mitsuba_values.h"
 #include "scene_file/property_values.h"
 
 #include <algorithm>
@@ -173,10 +174,11 @@ private:
     {
         has_integrator_ = true;
         const std::string type = integrator.written_type();
+        show_nothing_if_so_deep(integrator);
         if (type == "depth")
             std::erase_if(integrator.children,
                           [](const Element& child) { return child.value("name") != "inverse"; });
-        if (type != "moment" && type != "aov") return;
+        if (type != "moment" && type != "aov" && type != "adaptive" && type != "irrcache") return;
         if (type == "aov") add_channels(integrator, prefix);
         Element* inner = nullptr;
         for (Element& child : integrator.children) {
@@ -211,6 +213,19 @@ private:
         std::erase_if(only.attributes, [](const Attribute& a) { return a.name == "name"; });
         integrator = std::move(only);
         order_integrator(integrator, prefix + name + ".");
+    }
+
+    // No light at all is emission alone, without what emits it.
+    static void show_nothing_if_so_deep(Element& integrator)
+    {
+        for (Element& child : integrator.children) {
+            if (child.value("name") != "maxDepth" || child.value("value") != no_light) continue;
+            set_attribute(child, "value", "0");
+            std::erase_if(integrator.children,
+                          [](const Element& one) { return one.value("name") == "hideEmitters"; });
+            integrator.children.push_back(made_parameter(integrator, "boolean", "hideEmitters", "true"));
+            return;
+        }
     }
 
     // Without an integrator inside, 'aov' writes its channels alone.

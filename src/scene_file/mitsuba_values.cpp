@@ -437,12 +437,11 @@ bool depth_minus_one(Element& parameter, Diagnostics& diagnostics)
     if (!value || parameter.tag != "integer") return true; // whoever reads it reports it
     const auto depth = read_integer(parameter, *value, diagnostics);
     if (!depth) return false;
-    if (*depth == 0) {
-        diagnostics.error(parameter.value_place(*value),
-                          "max_depth 0 is a black image in Mitsuba; write 1 for emission seen directly");
-        return false;
-    }
-    if (*depth > 0) set_attribute(parameter, "value", std::to_string(*depth - 1));
+    if (*depth == 0)
+        diagnostics.warning(parameter.value_place(*value),
+                            "max_depth 0 is a black image, as in Mitsuba; 1 shows what emits light");
+    if (*depth >= 0)
+        set_attribute(parameter, "value", *depth == 0 ? std::string(no_light) : std::to_string(*depth - 1));
     return true;
 }
 

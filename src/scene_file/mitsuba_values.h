@@ -20,6 +20,8 @@ bool to_number(Element& parameter, Diagnostics& diagnostics);
 
 bool only_if_true(Element& parameter, Diagnostics& diagnostics); // false is as if it were not there
 bool only_rgb(Element& parameter, Diagnostics& diagnostics);     // left out; a warning for other than RGB
+// What depth_minus_one makes of 0, which is a black image: order_mitsuba() makes it one.
+inline constexpr std::string_view no_light = "-2";
 bool depth_minus_one(Element& parameter,
                      Diagnostics& diagnostics); // a number of path segments as one of bounces
 bool index_by_name(Element& parameter, Diagnostics& diagnostics); // "bk7" as 1.5046

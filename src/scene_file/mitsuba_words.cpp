@@ -4,6 +4,7 @@
 #include "scene_file/mitsuba06_words.h"
 #include "scene_file/mitsuba_values.h"
 
+#include <algorithm>
 #include <charconv>
 
 #include <fmt/format.h>
@@ -14,7 +15,7 @@ namespace {
 
 constexpr std::string_view vacuum = "Plumb renders surfaces in a vacuum only";
 constexpr std::string_view as_mesh = "export it as a mesh";
-constexpr std::string_view as_envmap = "render it to an image and use 'envmap'";
+constexpr std::string_view as_envmap = "tools/bake_sky makes an 'envmap' and a 'directional' light of it";
 constexpr std::string_view same_light =
     "this is rendered by 'path', which finds the same light up to noise (path_mis in 'renderer types')";
 
@@ -333,7 +334,8 @@ constexpr Refusal refusals[] = {
     {"shape", "ellipsoids", as_mesh},
     {"shape", "ellipsoidsmesh", as_mesh},
     {"bsdf", "hair", "use 'principled'"},
-    {"bsdf", "measured", "use 'principled'"},
+    {"bsdf", "measured", "use 'principled', or 'roughconductor' with a material"},
+    {"bsdf", "measured_polarized", "use 'principled', or 'roughconductor' with a material"},
     {"bsdf", "polarizer", "Plumb's light is not polarised"},
     {"bsdf", "retarder", "Plumb's light is not polarised"},
     {"bsdf", "circular", "Plumb's light is not polarised"},
@@ -341,7 +343,7 @@ constexpr Refusal refusals[] = {
     {"emitter", "sunsky", as_envmap},
     {"emitter", "timed_sunsky", as_envmap},
     {"emitter", "sky", as_envmap},
-    {"emitter", "directionalarea", "use 'directional'"},
+    {"emitter", "directionalarea", "use 'projector' or 'spot' with a small angle, or 'directional'"},
     {"texture", "volume", vacuum},
     {"camera", "irradiancemeter", "use 'perspective'"},
     {"camera", "radiancemeter", "use 'perspective' with a small fov"},
@@ -402,7 +404,13 @@ constexpr Vocabulary mitsuba3 = {.name = "mitsuba3",
 
 bool is_mitsuba_scene(const Element& root)
 {
-    return root.tag == "scene" && root.attribute("version") && !root.attribute("dialect");
+    if (root.tag != "scene" || !root.attribute("version") || root.attribute("dialect")) return false;
+    // Forks of Nori write a version, too; but Mitsuba has no <camera> and no <mesh>.
+    const auto has = [&](std::string_view tag) {
+        return std::any_of(root.children.begin(), root.children.end(),
+                           [&](const Element& child) { return child.tag == tag; });
+    };
+    return has("sensor") || !(has("camera") || has("mesh"));
 }
 
 const Vocabulary* mitsuba_vocabulary_named(std::string_view name)

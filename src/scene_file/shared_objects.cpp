@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "scene_file/shared_objects.h"
 
+#include "base/parallel.h"
 #include "plumb/model/bsdf.h"
+#include "plumb/model/texture.h"
 #include "scene_file/placement.h"
 #include "scene_file/property_values.h"
 
@@ -28,6 +30,16 @@ SourceLocation id_place(const Element& element)
     return id ? element.value_place(*id) : element.place();
 }
 
+// Recursion ends: parse_document().
+void find_textures(const Element& element, std::set<const Element*>& found)
+{
+    if (element.tag == "texture") {
+        found.insert(&element);
+        return;
+    }
+    for (const Element& child : element.children) find_textures(child, found);
+}
+
 } // namespace
 
 SharedObjects::SharedObjects(const Element& root, LoadContext& context)
@@ -50,7 +62,42 @@ SharedObjects::SharedObjects(const Element& root, LoadContext& context)
     for (const Element* ref : refs_)
         if (const auto named = by_id_.find(ref->value("id")); named != by_id_.end())
             roots.push_back(named->second.front());
+    prepare_textures(roots, context);
     for (const Element* element : roots) object(*element, element->place(), context);
+    prepared_.clear();
+}
+
+// Textures refer to nothing, so they can be built side by side: reading their images takes most of the time of loading.
+void SharedObjects::prepare_textures(const std::vector<const Element*>& roots, const LoadContext& context)
+{
+    std::set<const Element*> found;
+    for (const Element* element : roots) find_textures(*element, found);
+    const std::vector<const Element*> textures(found.begin(), found.end());
+    if (textures.size() < 2) return;
+    std::vector<Prepared> built(textures.size());
+    parallel_for(textures.size(), 0, [&](std::size_t i) {
+        Prepared& one = built[i];
+        LoadContext own{one.diagnostics,    context.dialect,   context.lenient, {}, 0, this,
+                        context.bsdf_depth, context.vocabulary};
+        one.texture = ObjectReader(*textures[i], own).build(texture_types());
+        if (one.texture) one.texture_bytes = one.texture->memory_bytes();
+        one.files = std::move(own.files);
+    });
+    for (std::size_t i = 0; i < textures.size(); ++i) prepared_.emplace(textures[i], std::move(built[i]));
+}
+
+std::shared_ptr<const Texture> SharedObjects::build_texture(const Element& element, LoadContext& context)
+{
+    if (const auto found = prepared_.find(&element); found != prepared_.end()) {
+        Prepared& one = found->second;
+        context.diagnostics.add(one.diagnostics);
+        for (const std::filesystem::path& file : one.files) context.add_file(file);
+        context.texture_bytes += one.texture_bytes;
+        return one.texture;
+    }
+    std::shared_ptr<const Texture> texture = ObjectReader(element, context).build(texture_types());
+    if (texture) context.texture_bytes += texture->memory_bytes();
+    return texture;
 }
 
 void SharedObjects::collect(const Element& element)
@@ -125,8 +172,7 @@ SharedObjects::Object SharedObjects::object(const Element& element, const Source
     if (element.tag == "bsdf") {
         object.bsdf = ObjectReader(element, context).build(bsdf_types());
     } else {
-        object.texture = ObjectReader(element, context).build(texture_types());
-        if (object.texture) context.texture_bytes += object.texture->memory_bytes();
+        object.texture = build_texture(element, context);
     }
     --context.bsdf_depth;
     if (is_shared) {

@@ -37,7 +37,17 @@ private:
         std::shared_ptr<const Texture> texture;
     };
 
+    // A texture that was built before it is asked for, and what was to be said of it.
+    struct Prepared {
+        std::shared_ptr<const Texture> texture;
+        Diagnostics diagnostics;
+        std::vector<std::filesystem::path> files;
+        std::uint64_t texture_bytes = 0;
+    };
+
     void collect(const Element& element);
+    void prepare_textures(const std::vector<const Element*>& roots, const LoadContext& context);
+    std::shared_ptr<const Texture> build_texture(const Element& element, LoadContext& context);
     void reject_second(const std::string& id, LoadContext& context) const;
     Object object(const Element& element, const SourceLocation& at, LoadContext& context);
     void fail_cycle(const Element& element, const SourceLocation& at, LoadContext& context) const;
@@ -46,7 +56,8 @@ private:
     std::vector<const Element*> refs_;
     std::set<const Element*> shared_; // built once
     std::map<const Element*, Object> built_;
-    std::vector<const Element*> open_; // being built: a reference to one of them closes a cycle
+    std::map<const Element*, Prepared> prepared_; // until the constructor is done
+    std::vector<const Element*> open_;            // being built: a reference to one of them closes a cycle
 };
 
 // What `element`, a <bsdf> or a <ref> to one, stands for. Null if it cannot be built, which is reported.

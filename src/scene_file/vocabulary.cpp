@@ -78,6 +78,13 @@ public:
         : words_(words), options_(options), diagnostics_(diagnostics)
     {}
 
+    // Recursion ends: parse_document().
+    void collect_bsdfs(const Element& element)
+    {
+        if (element.tag == "bsdf" && !element.value("id").empty()) bsdfs_.insert(element.value("id"));
+        for (const Element& child : element.children) collect_bsdfs(child);
+    }
+
     // Recursion ends: parse_document(). false: left out.
     bool object(Element& element)
     {
@@ -100,6 +107,9 @@ private:
         if (words_.syntax && !words_.syntax(child, diagnostics_)) return false;
         if (!rename_tag_of(child)) return false;
         if (is_property_tag(child.tag)) return operations(child) && rename_parameter(child, kind, type);
+        // The name of what is no texture says nothing: <ref name="bsdf" id="wood"/>.
+        if (child.tag == "ref" && bsdfs_.contains(child.value("id")))
+            std::erase_if(child.attributes, [](const Attribute& a) { return a.name == "name"; });
         if ((child.tag == "texture" || child.tag == "ref") && child.attribute("name") &&
             !rename_parameter(child, kind, type))
             return false;
@@ -134,8 +144,9 @@ private:
         const std::string_view rest = !refusal.once      ? options_.lenient ? "; it is left out" : ""
                                       : options_.lenient ? "; it and all others are left out"
                                                          : "; --lenient leaves it and all others out";
-        diagnostics_.add(options_.lenient ? Severity::warning : Severity::error, child.place(),
-                         fmt::format("<{}> is not supported; {}{}", child.tag, refusal.instead, rest));
+        diagnostics_.unsupported(child.place(),
+                                 fmt::format("<{}> is not supported; {}{}", child.tag, refusal.instead, rest),
+                                 options_.lenient);
     }
 
     enum class Outcome { fine, stands_in, left_out };
@@ -147,7 +158,7 @@ private:
             diagnostics_.warning(at, message + "; it is left out");
             return Outcome::left_out;
         }
-        diagnostics_.error(at, message);
+        diagnostics_.unsupported(at, message, false);
         element.children.clear();
         find_attribute(element, "type")->broken = true;
         return Outcome::stands_in;
@@ -168,13 +179,23 @@ private:
             if (row->ours != type) rename_attribute_value(element, "type", row->ours);
             return Outcome::fine;
         }
-        if (!words_.complete) return Outcome::fine;
+        if (!words_.complete) return options_.lenient ? leave_out(kind, type, at) : Outcome::fine;
         std::vector<std::string_view> known;
         for (const Vocabulary* from = &words_; from; from = from->base)
             for (const TypeName& name : from->types)
                 if (name.kind == kind) known.push_back(name.theirs);
         return refuse(element, at,
                       fmt::format("unknown {} '{}'{}", element.written_tag(), type, way_out(type, known)));
+    }
+
+    // A type that is not our own either, of a kind that a scene can do without.
+    Outcome leave_out(const std::string& kind, const std::string& type, const SourceLocation& at)
+    {
+        constexpr std::string_view kinds[] = {"shape", "bsdf", "texture", "emitter"};
+        if (std::find(std::begin(kinds), std::end(kinds), kind) == std::end(kinds) || is_our_type(kind, type))
+            return Outcome::fine;
+        diagnostics_.warning(at, fmt::format("unknown {} '{}'; it is left out", kind, type));
+        return Outcome::left_out;
     }
 
     bool rename_parameter(Element& child, const std::string& kind, const std::string& type)
@@ -196,26 +217,43 @@ private:
             return child.tag == "texture" || child.tag == "ref" || !row->convert ||
                    row->convert(child, diagnostics_);
         }
-        if (is_left_out_as_unknown(kind, type, name)) return false;
+        if (is_left_out_as_unknown(child, kind, type)) return false;
         if (!words_.complete || attribute->broken || has_any_name(kind, type)) return true;
         const std::vector<std::string_view> known = known_parameters(kind, type);
-        diagnostics_.add(
-            options_.lenient ? Severity::warning : Severity::error, child.value_place(*attribute),
+        const std::string message =
             fmt::format("unknown {} '{}' for {}{}{}", child.tag == "texture" ? "texture" : "parameter", name,
                         kind, type.empty() ? "" : fmt::format(" '{}'", type),
-                        known.empty() ? "; it takes none" : way_out(name, known)));
+                        known.empty() ? "; it takes none" : way_out(name, known));
+        if (closest_name(name, known).empty())
+            diagnostics_.unsupported(child.value_place(*attribute), message, options_.lenient);
+        else // a misspelling
+            diagnostics_.add(options_.lenient ? Severity::warning : Severity::error,
+                             child.value_place(*attribute), message);
         return false;
     }
 
-    bool is_left_out_as_unknown(const std::string& kind, const std::string& type,
-                                const std::string& name) const
+    bool is_left_out_as_unknown(const Element& child, const std::string& kind, const std::string& type)
     {
         const auto* row = find_row(words_, &Vocabulary::ignored, [&](const Ignored& ignored) {
-            return fits(ignored, kind, type) && ignored.name == "*";
+            return fits(ignored, kind, type) && ignored.name == "*" &&
+                   (!ignored.only_unset || (options_.unset && is_property_tag(child.tag)));
         });
         if (!row) return false;
+        const std::string name = child.value("name");
         const std::vector<std::string_view> ours = our_parameters(kind, our_type(words_, kind, type));
-        return std::find(ours.begin(), ours.end(), name) == ours.end();
+        if (std::find(ours.begin(), ours.end(), name) != ours.end()) return false;
+        if (row->only_unset && (is_ignored_anyway(kind, type, name) || !closest_name(name, ours).empty()))
+            return false;
+        if (!row->warning.empty())
+            diagnostics_.warning(child.value_place(*child.attribute("name")),
+                                 fmt::format(fmt::runtime(row->warning), name, kind, type));
+        return true;
+    }
+
+    // By whoever builds it, with words of its own.
+    static bool is_ignored_anyway(const std::string& kind, const std::string& type, const std::string& name)
+    {
+        return find_ignored(kind, type, name) != nullptr;
     }
 
     // The file's names of what the type has; rows for all types name more.
@@ -287,6 +325,7 @@ private:
     const ArrangeOptions& options_;
     Diagnostics& diagnostics_;
     std::set<std::pair<const TextFile*, std::string_view>> refused_; // once is enough
+    std::set<std::string, std::less<>> bsdfs_;                       // their ids
 };
 
 } // namespace
@@ -294,7 +333,9 @@ private:
 Element arrange(Element root, const Vocabulary& words, const ArrangeOptions& options,
                 Diagnostics& diagnostics)
 {
-    Arranger(words, options, diagnostics).object(root);
+    Arranger arranger(words, options, diagnostics);
+    arranger.collect_bsdfs(root);
+    arranger.object(root);
     for (const Vocabulary* from = &words; from; from = from->base)
         if (from->order) {
             from->order(root, diagnostics);
@@ -324,6 +365,8 @@ const TypeName* find_type(const Vocabulary& words, std::string_view kind, std::s
         if (from->folds)
             for (const TypeName& row : from->types)
                 if (row.kind == kind && folded(row.theirs) == name) return &row;
+    for (const Vocabulary* from = &words; from; from = from->base)
+        if (const TypeName* row = from->guess ? from->guess(kind, theirs) : nullptr) return row;
     return nullptr;
 }
 

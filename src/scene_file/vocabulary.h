@@ -42,7 +42,9 @@ struct Refusal {
 // A parameter that is left out.
 struct Ignored {
     std::string_view kind, type, name; // name "*": whatever our type has no parameter for
-    std::string_view warning = {};
+    std::string_view warning = {};     // of "*": {0} is the name, {1} the kind, {2} the type
+    // Only in files whose dialect nobody has set; "*" is then no name that is near one of our parameters, and no texture.
+    bool only_unset = false;
 };
 
 struct Vocabulary {
@@ -63,6 +65,9 @@ struct Vocabulary {
     Convert syntax = nullptr;
     // What is somewhere else, or nowhere, in files of this family; after all else.
     void (*order)(Element& root, Diagnostics& diagnostics) = nullptr;
+    // The row for a type that no table has and that our own language does not have either, by the words in its name; or
+    // null.
+    const TypeName* (*guess)(std::string_view kind, std::string_view theirs) = nullptr;
     const Vocabulary* base = nullptr; // where to look next
 };
 
@@ -70,6 +75,7 @@ struct ArrangeOptions {
     std::span<const Preset> overrides =
         {};               // win over those of the vocabulary; of them, the first one that fits
     bool lenient = false; // unknown parameters are warnings
+    bool unset = false;   // neither the file nor the command line names a dialect
 };
 
 // The same tree in our own words. Places still point to the file; Element::written has the words of the file.

@@ -36,6 +36,7 @@ constexpr ConvertText convert_texts[] = {
     {to_fraction, "limited to [0, 1]"},
     {negated, "negated"},
     {image_of, "also the name of an image's file"},
+    {grey_color, "also a number"},
     {data_image_of, "also the name of an image's file, which is not decoded"},
     {uv_scale, "one or two factors"},
     {u_scale, "a factor of u"},

@@ -120,15 +120,34 @@ TEST_CASE("a file of that name in other letters, or elsewhere, is suggested", "[
         suggests(beside, "data/" + file, "Data/" + file);
         suggests(beside, "DATA\\" + file, "Data/" + file);
         suggests(here, "data/" + file, "../Data/" + file);
-        // Of a path on somebody else's computer the file's name is left.
-        const Files flat("scenes/");
-        flat.write("scenes/" + file, read_bytes(flat / ("scenes/" + parameter.file)));
-        suggests(flat, "C:\\Users\\me\\" + file, file);
-        suggests(flat, "/nobody/course/" + file, file);
     }
     const Files files("scenes/");
     CHECK_THAT(files.check(parameters[0], "none.obj").err,
                ContainsSubstring("error: filename names a file that does not exist: 'scenes/none.obj'\n"));
+}
+
+TEST_CASE("of a path on another computer the end counts, and relative ones may start above",
+          "[cli][named_files]")
+{
+    for (const Parameter& parameter : parameters) {
+        const std::string file = parameter.file.substr(parameter.file.find('/') + 1);
+        const auto finds = [&](const Files& files, const std::string& name, const std::string& found) {
+            CAPTURE(name);
+            const RunResult result = files.check(parameter, name);
+            CHECK_THAT(result.out, ContainsSubstring("memory: "));
+            CHECK_THAT(result.err, ContainsSubstring("warning: '" + name + "' does not exist; '" + found +
+                                                     "' is read instead"));
+        };
+        const Files beside("scenes/"), here("");
+        for (const std::string& name :
+             {"C:\\Users\\me\\" + parameter.file, "/nobody/course/" + parameter.file})
+            finds(beside, name, parameter.file);
+        const Files flat("scenes/");
+        flat.write("scenes/" + file, read_bytes(flat / ("scenes/" + parameter.file)));
+        finds(flat, "D:/nori/elsewhere/" + file, file);
+        // As from a build directory beside.
+        finds(here, "../../" + parameter.file, "../" + parameter.file);
+    }
 }
 
 TEST_CASE("scenes of suites, and scenes on the command line, have the same way out", "[cli][named_files]")
@@ -160,13 +179,13 @@ TEST_CASE("an image whose mesh lay in the working directory is rendered again, o
     REQUIRE(run_renderer({"scenes/a.xml", "-o", "a.exr"}, files.path()).exit_code == 0);
     REQUIRE(run_renderer({"rerun", "a.exr", "-o", "b.exr"}, files.path()).exit_code == 0);
     CHECK(read_bytes(files / "a.exr") == read_bytes(files / "b.exr"));
-    // From another directory there is no such mesh, or another one.
+    // From another directory it is found above the scene, or there is another one.
     files.write("other/readme", "");
-    const RunResult absent =
+    const RunResult above =
         run_renderer({"rerun", "../a.exr", "-o", "c.exr", "--scene", "../scenes/a.xml"}, files / "other");
-    CHECK(absent.exit_code == 1);
-    CHECK_THAT(absent.err,
-               ContainsSubstring("names a file that does not exist: '../scenes/Data/square.obj'"));
+    CHECK(above.exit_code == 0);
+    CHECK_THAT(above.err,
+               ContainsSubstring("'Data/square.obj' does not exist; '../Data/square.obj' is read instead"));
     files.write("other/Data/square.obj", square + "v 0 0 0\n");
     const RunResult changed =
         run_renderer({"rerun", "../a.exr", "-o", "c.exr", "--scene", "../scenes/a.xml"}, files / "other");

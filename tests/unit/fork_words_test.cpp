@@ -10,6 +10,7 @@
 #include "scene_file/folded_name.h"
 #include "scene_file/foreign_names.h"
 #include "scene_file/fork_words.h"
+#include "scene_file/mitsuba_words.h"
 #include "scene_file/nori_words.h"
 #include "support/catch.h"
 #include "support/element_text.h"
@@ -31,14 +32,14 @@ struct Arranged {
     std::string messages; // one a line
 };
 
-Arranged arranged(const std::string& inner, bool lenient = false)
+Arranged arranged(const std::string& inner, bool lenient = false, bool unset = false)
 {
     Diagnostics diagnostics;
     auto root = parse_document("scene.xml", "<scene>" + inner + "</scene>", diagnostics);
     REQUIRE(root);
     Arranged result;
-    result.root =
-        arrange(*std::move(root), nori_vocabulary(DialectName::plumb), {.lenient = lenient}, diagnostics);
+    result.root = arrange(*std::move(root), nori_vocabulary(DialectName::plumb),
+                          {.lenient = lenient, .unset = unset}, diagnostics);
     const std::string text = text_of(result.root);
     if (text.size() > 17) result.text = text.substr(7, text.size() - 15);
     for (const Diagnostic& diagnostic : diagnostics.all()) result.messages += diagnostic.message + "\n";
@@ -117,6 +118,7 @@ TEST_CASE("every parameter of the forks becomes the one that its row names", "[u
 TEST_CASE("parameters that change nothing are left out", "[unit][vocabulary]")
 {
     for (const Ignored& row : fork_words.ignored) {
+        if (row.only_unset) continue;
         const std::string_view type = row.type.empty() ? std::string_view("area") : row.type;
         const std::string name = row.name == "*" ? "whatever" : std::string(row.name);
         CAPTURE(row.kind, type, name);
@@ -321,4 +323,141 @@ TEST_CASE("the page of the scene language lists every type of the forks", "[unit
             page.find(fmt::format("`{}`", row.theirs), page.find("## Words of Nori's forks"));
         REQUIRE(name != page.npos);
     }
+}
+
+TEST_CASE("types that no table has are known by the words of their names", "[unit][vocabulary]")
+{
+    const auto becomes = [](const std::string& kind, const std::string& theirs) {
+        return only(arranged(element(kind, theirs))).value("type");
+    };
+    for (const auto& [kind, theirs, ours] : {
+             std::tuple{"integrator", "volumetricPhotonMapper", "path_mis"},
+             std::tuple{"integrator", "vol_path_integrator", "path_mis"},
+             std::tuple{"integrator", "path_mis2", "path_mis"},
+             std::tuple{"integrator", "direct_mis_new", "direct_mis"},
+             std::tuple{"integrator", "direct_illumination_bsdf", "direct_mats"},
+             std::tuple{"integrator", "direct_lights_ems", "direct_ems"},
+             std::tuple{"texture", "image_texture_simple", "bitmap"},
+             std::tuple{"texture", "normaltexture", "bitmap"},
+             std::tuple{"emitter", "HDR_environment_emitter", "environment"},
+             std::tuple{"emitter", "my_spot_light", "spot"},
+             std::tuple{"emitter", "distant_directional_light", "directional"},
+             std::tuple{"bsdf", "disneyPrincipledBRDF", "principled"},
+             std::tuple{"bsdf", "rough_glass_bsdf", "roughdielectric"},
+             std::tuple{"bsdf", "rough_conductor", "roughconductor"},
+             std::tuple{"bsdf", "thin_dielectric", "thindielectric"},
+             std::tuple{"bsdf", "metalMaterial", "conductor"},
+             std::tuple{"bsdf", "texturedDiffuse", "diffuse"},
+             std::tuple{"bsdf", "diffuseCoatedDielectric", "plastic"},
+             std::tuple{"camera", "thinlens_camera_dof", "perspective"},
+             std::tuple{"sampler", "halton_sequence", "sobol"},
+             std::tuple{"sampler", "adaptive", "independent"},
+         }) {
+        CAPTURE(kind, theirs);
+        CHECK(becomes(kind, theirs) == ours);
+    }
+    // One unknown word, or none that says what it is, and it stays what it is.
+    for (const auto& [kind, theirs] :
+         {std::pair{"integrator", "path_miss"}, std::pair{"integrator", "albedo"},
+          std::pair{"integrator", "simple2"}, std::pair{"texture", "procedural_texture"},
+          std::pair{"emitter", "texturearea"}, std::pair{"emitter", "textured_area_light"},
+          std::pair{"bsdf", "difuse"}, std::pair{"bsdf", "velvet_diffuse"},
+          std::pair{"sampler", "indpendent"}, std::pair{"camera", "fisheye"}, std::pair{"shape", "image"}}) {
+        CAPTURE(kind, theirs);
+        CHECK(becomes(kind, theirs) == theirs);
+    }
+    CHECK(arranged(
+              "<integrator type='photon_map_integrator'><integer name='photonCount' value='9'/></integrator>")
+              .messages == "this is rendered by 'path_mis', which finds the same light up to noise\n");
+}
+
+TEST_CASE("what integrators, samplers, mirrors and diffuse surfaces are told in other programs is not used, "
+          "where no "
+          "dialect is set",
+          "[unit][vocabulary]")
+{
+    const std::string inner = "<integrator type='path_mis'><boolean name='rr' value='true'/></integrator>"
+                              "<bsdf type='diffuse'><float name='roughness' value='1'/></bsdf>";
+    const Arranged unset = arranged(inner, false, true);
+    CHECK(unset.text == "<integrator type='path_mis'/><bsdf type='diffuse'/>");
+    CHECK(unset.messages == "'rr' is not used: integrator 'path_mis' has no such parameter\n"
+                            "'roughness' is not used: bsdf 'diffuse' has no such parameter\n");
+    CHECK(arranged(inner).text == inner);
+    // Neither misspellings, nor textures, nor what other BSDFs are told.
+    for (const char* kept : {"<bsdf type='diffuse'><color name='albdo' value='1'/></bsdf>",
+                             "<bsdf type='diffuse'><texture type='checker' name='shine'/></bsdf>",
+                             "<bsdf type='dielectric'><color name='tint' value='1'/></bsdf>",
+                             "<integrator type='path_mis'><integer name='maxDept' value='1'/></integrator>",
+                             "<camera type='perspective'><boolean name='distortion' value='true'/></camera>"})
+        CHECK(arranged(kept, false, true).text == kept);
+}
+
+TEST_CASE("an environment in a shape is the scene's", "[unit][vocabulary]")
+{
+    const Arranged result =
+        arranged("<mesh type='sphere'><float name='radius' value='30'/><emitter type='environment'>"
+                 "<string name='filename' value='a.exr'/></emitter></mesh><mesh type='sphere'/>");
+    CHECK(result.text == "<emitter type='environment'><string name='filename' value='a.exr'/></emitter>"
+                         "<mesh type='sphere'/>");
+    CHECK(result.messages.starts_with("the sphere around an environment is left out"));
+}
+
+TEST_CASE("beams that end before they begin to fall off, and falloff as a number", "[unit][vocabulary]")
+{
+    const Arranged wide = arranged("<emitter type='spot'><float name='falloffStart' value='50'/>"
+                                   "<float name='totalWidth' value='30'/></emitter>");
+    CHECK(wide.text ==
+          "<emitter type='spot'><float name='beamWidth' value='30'/><float name='cutoffAngle' value='30'/>"
+          "<string name='falloff' value='quartic'/></emitter>");
+    CHECK(wide.messages ==
+          "the light would fall off from 50 degrees on, but ends at 30; it does not fall off\n");
+    CHECK(arranged("<emitter type='spot'><float name='cone' value='20'/><float name='falloff' "
+                   "value='10'/></emitter>")
+              .text ==
+          "<emitter type='spot'><float name='cutoffAngle' value='20'/>"
+          "<float name='beamWidth' value='10'/><string name='falloff' value='quartic'/></emitter>");
+    // Of our own words nothing is changed; they are checked when it is built.
+    const std::string ours = "<emitter type='spot'><float name='beamWidth' value='50'/>"
+                             "<float name='cutoffAngle' value='30'/></emitter>";
+    CHECK(arranged(ours).text == ours);
+}
+
+TEST_CASE("a switch of the lens", "[unit][vocabulary]")
+{
+    const std::string lens = "<float name='lensRadius' value='1'/>";
+    CHECK(
+        arranged("<camera type='perspective'><boolean name='DoF' value='true'/>" + lens + "</camera>").text ==
+        "<camera type='perspective'>" + lens + "</camera>");
+    CHECK(arranged("<camera type='perspective'><boolean name='DoF' value='false'/>" + lens + "</camera>")
+              .text == "<camera type='perspective'/>");
+}
+
+TEST_CASE("with --lenient, types that nobody knows are left out", "[unit][vocabulary]")
+{
+    const Arranged result =
+        arranged("<bsdf type='velvet'/><bsdf type='diffuse'/><integrator type='albedo'/>", true);
+    CHECK(result.text == "<bsdf type='diffuse'/><integrator type='albedo'/>");
+    CHECK(result.messages == "unknown bsdf 'velvet'; it is left out\n");
+    CHECK(arranged("<bsdf type='velvet'/>").text == "<bsdf type='velvet'/>");
+}
+
+TEST_CASE("a version does not make a scene of a fork one of Mitsuba's", "[unit][vocabulary]")
+{
+    const auto is_mitsuba = [](const std::string& inner, const std::string& attributes = "version='3.0.0'") {
+        Diagnostics diagnostics;
+        const auto root =
+            parse_document("scene.xml", "<scene " + attributes + ">" + inner + "</scene>", diagnostics);
+        return is_mitsuba_scene(*root);
+    };
+    CHECK(is_mitsuba(""));
+    CHECK(is_mitsuba("<sensor type='perspective'/><shape type='sphere'/>"));
+    CHECK(is_mitsuba("<shape type='sphere'/>"));
+    CHECK_FALSE(is_mitsuba("<camera type='perspective'/>"));
+    CHECK_FALSE(is_mitsuba("<mesh type='obj'/>"));
+    CHECK(is_mitsuba("<sensor type='perspective'/><mesh type='obj'/>"));
+    CHECK_FALSE(is_mitsuba("<sensor type='perspective'/>", "version='3.0.0' dialect='plumb'"));
+    CHECK(load_text("<scene version='0.5.0'>" + start.substr(start.find('>') + 1) +
+                    "<mesh type='sphere'/></scene>")
+              .job.scene->objects()
+              .size() == 1);
 }

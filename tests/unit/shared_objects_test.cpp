@@ -155,3 +155,37 @@ TEST_CASE("only oriented BSDFs turn the shading frame along dp/du", "[unit][shar
     CHECK(as_ever->shading.s == Frame(Vec3f(0, 0, 1)).s);
     CHECK(along->shading.n == as_ever->shading.n);
 }
+
+TEST_CASE("textures that are built side by side say each thing once, in the order of the file",
+          "[unit][shared_objects]")
+{
+    const auto texture = [](const std::string& file) {
+        return "<texture type='bitmap' name='albedo'><string name='filename' value='" + file +
+               "'/></texture>";
+    };
+    std::string scene = start;
+    for (int i = 0; i < 12; ++i)
+        scene += fmt::format(
+            "<bsdf type='diffuse' id='b{0}'>{1}</bsdf>\n<shape type='sphere'><ref id='b{0}'/></shape>\n"
+            "<shape type='sphere'><ref id='b{0}'/></shape>\n",
+            i, texture(fmt::format("none{}.png", i)));
+    const std::string all = errors(scene + "</scene>");
+    std::size_t at = 0;
+    for (int i = 0; i < 12; ++i) {
+        const std::size_t next = all.find(fmt::format("/none{}.png'", i), at);
+        REQUIRE(next != all.npos);
+        CHECK(all.find(fmt::format("/none{}.png'", i), next + 1) == all.npos);
+        at = next;
+    }
+
+    // Files count, and the memory that their images take.
+    const TempDirectory directory;
+    std::string bytes = "P6 2 2 255\n" + std::string(12, 'z');
+    for (const char* name : {"a.ppm", "b.ppm"}) directory.write(name, bytes);
+    const LoadedScene loaded = load_scene(
+        directory.write("scene.xml", start + "<bsdf type='diffuse' id='a'>" + texture("a.ppm") +
+                                         "</bsdf><bsdf type='diffuse' id='b'>" + texture("b.ppm") +
+                                         "</bsdf><shape type='sphere'><ref id='a'/></shape></scene>"));
+    CHECK(loaded.inputs.size() == 3);
+    CHECK(loaded.texture_bytes == 2 * 12);
+}

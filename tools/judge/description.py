@@ -105,3 +105,12 @@ class Scene:
     max_depth: int = 5  # surface bounces; -1: no limit
     judge: str = "Mitsuba"  # or "quadrature"
     what: str = ""  # what it is there for
+
+
+@dataclass
+class MitsubaFile:
+    """A scene of Mitsuba's own language, kept by hand in tests/scenes/independent: both renderers read the same file."""
+
+    name: str  # without .xml
+    what: str
+    judge: str = "Mitsuba, the same file"

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Writes the scenes and references of the independent judge.
 
-    tools/judge/make.py [--scenes-only] [--replicates N] [--samples N] [NAME...]
+    tools/judge/make.py [--scenes-only] [--replicates N] [--samples N] [--variant NAME] [NAME...]
 
 Scene files, meshes and textures go to tests/scenes/independent/, references to references/independent/: channels
 R, G, B and variance.R, variance.G, variance.B, the variance of each mean. Without names, all of them, and the README
@@ -36,7 +36,10 @@ def write_image(path, data, names, attributes):
 
 def write_scene(scene):
     import plumb_xml
+    from description import MitsubaFile
 
+    if isinstance(scene, MitsubaFile):
+        return
     for mesh in plumb_xml.meshes(scene):
         (SCENE_DIRECTORY / (mesh.name + ".obj")).write_text(plumb_xml.mesh_text(mesh))
     for image in plumb_xml.images(scene):
@@ -59,10 +62,15 @@ def judge(scene, replicates, samples):
         mean, variance = quadrature.render(scene)
         return mean, variance, {"judge": f"quadrature, numpy {np.__version__}", "judge:replicates": "0"}
     import mitsuba_scene
+    from description import MitsubaFile
 
-    mean, variance = mitsuba_scene.render(scene, SCENE_DIRECTORY, replicates, samples)
+    if isinstance(scene, MitsubaFile):
+        path = SCENE_DIRECTORY / (scene.name + ".xml")
+        mean, variance = mitsuba_scene.render_file(path, replicates, samples)
+    else:
+        mean, variance = mitsuba_scene.render(scene, SCENE_DIRECTORY, replicates, samples)
     return mean, variance, {
-        "judge": f"Mitsuba {mi.__version__} {VARIANT}",
+        "judge": f"Mitsuba {mi.__version__} {mi.variant()}",
         "judge:replicates": str(replicates),
         "judge:samples": str(replicates * samples),
     }
@@ -73,10 +81,11 @@ def main():
     parser.add_argument("--scenes-only", action="store_true")
     parser.add_argument("--replicates", type=int, default=32)
     parser.add_argument("--samples", type=int, default=1024, help="per pixel and replicate")
+    parser.add_argument("--variant", default=VARIANT, help="of Mitsuba; scalar_rgb needs no LLVM and is slower")
     parser.add_argument("names", nargs="*")
     options = parser.parse_args()
 
-    mi.set_variant("scalar_rgb" if options.scenes_only else VARIANT)
+    mi.set_variant("scalar_rgb" if options.scenes_only else options.variant)
     sys.path.insert(0, str(HERE))
     import readme
     from scenes import SCENES
@@ -100,7 +109,7 @@ def main():
         print(f"{scene.name}: mean {mean.mean():.5f}, RMSE {100 * error:.3f} %, {time.time() - start:.1f} s, "
               f"{os.path.getsize(path)} bytes", flush=True)  # fmt: skip
     if not options.scenes_only:
-        text = readme.text(SCENES, REFERENCE_DIRECTORY, read_reference, mi.__version__, VARIANT, options)
+        text = readme.text(SCENES, REFERENCE_DIRECTORY, read_reference, mi.__version__)
         (REFERENCE_DIRECTORY / "README.md").write_text(text)
 
 

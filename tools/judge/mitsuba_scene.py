@@ -256,7 +256,15 @@ def build(scene, directory, sampler="independent"):
 
 def render(scene, directory, replicates, samples):
     """The mean of `replicates` renders with seeds of their own, and the variance of that mean, of each value."""
-    built = build(scene, directory)
+    return statistics(build(scene, directory), replicates, samples, scene.filter.radius > 0.5)
+
+
+def render_file(path, replicates, samples):
+    """The same of a file, whose filter is a pixel's box."""
+    return statistics(mi.load_file(str(path)), replicates, samples, False)
+
+
+def statistics(built, replicates, samples, shares_samples):
     renders = [
         np.array(mi.render(built, spp=samples, seed=1000 + i), dtype=np.float64)[:, :, :3]
         for i in range(replicates)
@@ -266,7 +274,7 @@ def render(scene, directory, replicates, samples):
     variance = stack.var(axis=0, ddof=1) / replicates
     # A sample of a wide filter adds to several pixels. What that adds to the variance of a sum over many pixels is
     # spread over them, so that variances of pixels may be summed.
-    if scene.filter.radius > 0.5:
+    if shares_samples:
         of_sum = stack.sum(axis=(1, 2)).var(axis=0, ddof=1) / replicates
         variance *= np.maximum(of_sum / np.maximum(variance.sum(axis=(0, 1)), 1e-300), 1.0)
     return mean, variance

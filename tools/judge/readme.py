@@ -11,7 +11,7 @@ integrated numerically in double precision. The test `plumb_tests "[independent]
 Each scene is described once, in [tools/judge/scenes.py](../../tools/judge/scenes.py); from that description come
 Plumb's scene file in [tests/scenes/independent/](../../tests/scenes/independent), Mitsuba's dictionary, and the
 integral. The channels `variance.R`, `variance.G`, `variance.B` are the variance of each pixel's mean: estimated from
-{replicates} renders with seeds of their own (`judge:replicates` in the header), or, of a quadrature, the square of
+32 renders with seeds of their own (`judge:replicates` in the header), or, of a quadrature, the square of
 what a coarser rule differs by. Where a filter is wider than a pixel, neighbouring pixels of Mitsuba share samples;
 their variances are scaled up so that their sum is that of the whole image.
 
@@ -21,8 +21,11 @@ their variances are scaled up so that their sum is that of the whole image.
     export DRJIT_LIBLLVM_PATH=...        # libLLVM.so of LLVM 16 or newer
     ~/judge/bin/python tools/judge/make.py [NAME...]
 
-Made with Mitsuba {version} ({variant}), NumPy {numpy}; {samples} samples per pixel of Mitsuba. All of them take about
-ten minutes on two cores. `--scenes-only` writes only the scene files, which needs no LLVM.
+Made with Mitsuba {version}; each header names variant and samples per pixel (`judge`, `judge:samples`). All of them take
+about ten minutes on two cores. `--scenes-only` writes only the scene files, which needs no LLVM; `--variant scalar_rgb`
+needs none either.
+
+Scenes whose names begin with `file-` are files of Mitsuba, kept by hand: both programs read the same file.
 
 ## Where the two renderers mean different things
 
@@ -54,7 +57,7 @@ None of these is a bug of Plumb; the translation or the choice of judge takes th
 """
 
 
-def text(scenes, directory, read, version, variant, options):
+def text(scenes, directory, read, version):
     """read(path) gives mean and variance, each (height, width, 3)."""
     rows = []
     for scene in scenes:
@@ -64,8 +67,4 @@ def text(scenes, directory, read, version, variant, options):
         mean, variance = read(path)
         error = 100.0 * np.sqrt(variance.mean()) / abs(mean.mean())
         rows.append(f"| {scene.name} | {scene.what} | {scene.judge} | {mean.mean():.4f} | {error:.2g} % |")
-    head = TEXT.format(
-        version=version, variant=variant, numpy=np.__version__, replicates=options.replicates,
-        samples=options.replicates * options.samples,
-    )  # fmt: skip
-    return head + "\n".join(rows) + "\n"
+    return TEXT.format(version=version) + "\n".join(rows) + "\n"

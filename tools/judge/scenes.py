@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The scenes of the independent judge. A new one is a line or a few here."""
 
-from description import Camera, Checkerboard, Filter, Light, Scene, Shape
+from description import Camera, Checkerboard, Filter, Light, MitsubaFile, Scene, Shape
 from objects import (
     GREY, MIRROR, PAINTING, ball, board, cube, dielectric, diffuse, dome, floor, frosted, gem, mesh_lamp, metal,
     microfacet, octahedron, painted_sky, panel, phong, point_light, rectangle_lamp, sheet, sky, sphere_lamp, substrate, sun,
@@ -251,3 +251,16 @@ judged_by_quadrature("gaussian-quadrature", "Phong 100 through a Gaussian cut of
                      filter=Filter("gaussian", 1.2, stddev=0.8))
 judged_by_quadrature("box-quadrature", "Phong 30 through a wide box",
                      phong((0.1, 0.1, 0.1), (0.8, 0.8, 0.8), 30), PLANE_POINT[0], ABOVE, filter=Filter("box", 1.5))
+
+# --- Files of Mitsuba ---------------------------------------------------------------------------------------------
+
+SCENES += [
+    MitsubaFile("file-blender", "As the add-on mitsuba-blender writes scenes: named references, painted vertices"),
+    MitsubaFile("file-metals", "Metals by name and by index, anisotropic GGX, rough plastic"),
+    MitsubaFile("file-principled", "Disney's BSDF in a turned environment map"),
+    MitsubaFile("file-sheets", "Mask with a checkerboard, thin glass, a blend, nothing"),
+    MitsubaFile("file-bent", "A bump map, a bent normal; a point and a spot light"),
+    MitsubaFile("file-instances", "Cylinder, disk and cube in a group, and two instances of it"),
+    MitsubaFile("file-lights", "A slide in a spot, a projector, a textured lamp"),
+    MitsubaFile("file-lens", "A thin lens and a crop window; spectra; nearest texels"),
+]

@@ -91,10 +91,13 @@ public:
         add(Severity::warning, at, std::move(message));
     }
     void note(const SourceLocation& at, std::string message) { add(Severity::note, at, std::move(message)); }
+    // What can be left out: a warning where the user is lenient, else an error.
+    void unsupported(const SourceLocation& at, std::string message, bool lenient);
     void add(Severity severity, const SourceLocation& at, std::string message);
     void add(const Diagnostics& others);
 
     bool has_errors() const { return has_errors_; }
+    bool has_only_unsupported() const { return has_errors_ && !has_other_errors_; } // of errors
     bool keeps(Severity severity, std::string_view message) const; // one more message like this one
     // What was kept. The last one of a kind says how many more there were.
     const std::vector<Diagnostic>& all() const;
@@ -113,6 +116,7 @@ private:
     std::map<std::string, Count, std::less<>> kinds_;
     Count severities_[3];
     bool has_errors_ = false;
+    bool has_other_errors_ = false; // than of what is unsupported
     bool leaves_out_notes_ = false;
     mutable std::vector<Diagnostic> shown_; // by all()
 };
