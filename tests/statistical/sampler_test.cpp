@@ -7,6 +7,8 @@
 #include "support/params.h"
 #include "support/statistics.h"
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <set>
 #include <vector>
@@ -294,4 +296,32 @@ TEST_CASE("stratified has a sample in each stratum", "[statistical][sampler]")
     }
     CHECK(cells.size() == static_cast<std::size_t>(one.total));
     CHECK(intervals.size() == static_cast<std::size_t>(one.total));
+}
+
+TEST_CASE("the sets of camera and first two vertices are spread evenly together by sobol",
+          "[statistical][sampler]")
+{
+    // Of 1024 samples from a multiple of 1024 on, each cell of a grid of 4 x 4 x 4 x 4 over two of the six pairs holds four.
+    // Of pairs that have nothing to do with each other, a fifth of the cells would.
+    const std::uint64_t first = 1024 * GENERATE(0, 3);
+    const auto sampler = make_sampler("sobol");
+    const auto cell = [](const Vec2f& p) {
+        return 4 * static_cast<int>(p.x * 4.f) + static_cast<int>(p.y * 4.f);
+    };
+    std::vector<std::array<int, 6>> samples;
+    for (std::uint64_t i = first; i < first + 1024; ++i) {
+        std::array<int, 6>& cells = samples.emplace_back();
+        sampler->start(23, {7, 5}, i);
+        for (std::size_t pair = 0; pair < cells.size(); ++pair) {
+            if (pair > 0 && pair % 2 == 0) sampler->start_vertex(static_cast<int>(pair / 2) - 1);
+            cells[pair] = cell(sampler->next_2d());
+        }
+    }
+    for (std::size_t a = 0; a < 6; ++a) {
+        for (std::size_t b = 0; b < a; ++b) {
+            std::vector<int> counts(256, 0);
+            for (const auto& cells : samples) ++counts[static_cast<std::size_t>(16 * cells[a] + cells[b])];
+            CHECK(std::count(counts.begin(), counts.end(), 4) == 256);
+        }
+    }
 }
