@@ -1,11 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Checks what every #include points to.
+"""Checks what every #include points to, or draws it.
+
+    tools/check_layers.py                    the check
+    tools/check_layers.py --svg FILE         writes the picture of docs/architecture.md
 
 1. Layers: a file includes its own layer or a lower one.
 2. One door: each third-party library is included by the file or files that wrap it, and nowhere else.
 
-Prints `file:line: message` for each violation, and exits with 1 if there is one.
+The check prints `file:line: message` for each violation, and exits with 1 if there is one.
 """
 
 import re
@@ -18,6 +21,7 @@ LAYERS = [
     ["math"],
     ["sampling", "statistics"],
     ["image"],
+    ["denoise"],
     ["model"],
     ["shapes", "textures", "bsdfs", "emitters", "cameras", "samplers", "filters"],
     ["scene"],
@@ -29,6 +33,7 @@ LAYERS = [
     ["suite_file", "test_file"],
     ["estimator_checks"],
     ["compare"],
+    ["display"],
     ["rendering"],
     ["experiments"],
     ["reports"],
@@ -39,7 +44,9 @@ LAYERS = [
 DOORS = {
     "Embree": (r"embree[34]?/", ["src/scene/accel*"]),
     "OpenImageIO": (r"OpenImageIO/", ["src/image/oiio/*"]),
-    "OpenEXR": (r"OpenEXR/|Imf|Iex|IlmThread", ["src/image/oiio/*.cpp"]),
+    "OpenEXR": (r"OpenEXR/|Imf|Iex|IlmThread", ["src/image/lean/exr*"]),
+    "libpng": (r"png\.h", ["src/image/lean/png.cpp"]),
+    "libjpeg": (r"(jpeglib|jerror|turbojpeg)\.h", ["src/image/lean/jpeg.cpp"]),
     "tinyobjloader": (r"tiny_?obj", ["src/shapes/obj/mtl.cpp"]),
     "pugixml": (r"pugi", ["src/scene_file/document*.cpp"]),
     "oneTBB": (r"(oneapi/)?tbb(/|\.h)", ["src/render/render*.cpp", "src/base/parallel*.cpp"]),
@@ -104,7 +111,57 @@ def check_file(root, path):
             yield number, f"'{room_of(path)}' may not include '{name}' of the higher layer '{room_of(target)}'"
 
 
-def main():
+def includes_between_rooms(root, files):
+    """How many includes point from one room to another: {(from, to): count}."""
+    counts = {}
+    for path in files:
+        for line in (root / path).read_text(encoding="utf-8").splitlines():
+            match = INCLUDE.match(line)
+            target = resolve(root, path, match.group(2)) if match else None
+            if target is not None and room_of(target) and room_of(path) not in (None, room_of(target)):
+                pair = (room_of(path), room_of(target))
+                counts[pair] = counts.get(pair, 0) + 1
+    return counts
+
+
+def svg(root, files):
+    """A row for each layer, the highest on top. A line is as wide as there are includes; those to base and math are left out."""
+    counts = includes_between_rooms(root, files)
+    lines_of = {}
+    for path in files:
+        text = (root / path).read_text(encoding="utf-8")
+        lines_of[room_of(path)] = lines_of.get(room_of(path), 0) + text.count("\n")
+    width, row, box, gap = 960, 56, 30, 14
+    place = {}
+    for number, rooms in enumerate(reversed(LAYERS)):
+        size = (width - gap * (len(rooms) + 1)) / max(len(rooms), 4)
+        left = (width - len(rooms) * size - (len(rooms) - 1) * gap) / 2
+        # Alternating, so that lines between neighbours of a column do not hide each other.
+        shift = 0 if len(rooms) > 1 else (-1) ** number * 150
+        for i, room in enumerate(rooms):
+            place[room] = (left + shift + i * (size + gap), 20 + number * row, size)
+    height = 20 + len(LAYERS) * row
+    parts = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" font-family="sans-serif" font-size="13">',
+             "<title>Includes between the rooms of Plumb, from the higher layers down</title>",
+             f'<rect width="{width}" height="{height}" fill="white"/>']
+    for (source, target), count in sorted(counts.items()):
+        if target in ("base", "math") or source not in place or target not in place:
+            continue
+        x1, y1, size1 = place[source]
+        x2, y2, size2 = place[target]
+        x1, x2, y1 = x1 + size1 / 2, x2 + size2 / 2, y1 + box
+        middle = (y1 + y2) / 2
+        parts.append(f'<path d="M{x1:.0f} {y1:.0f} C{x1:.0f} {middle:.0f} {x2:.0f} {middle:.0f} {x2:.0f} {y2:.0f}" fill="none" '
+                     f'stroke="#4477aa" stroke-opacity="0.35" stroke-width="{min(1 + count / 12, 6):.1f}"/>')
+    for room, (x, y, size) in place.items():
+        parts.append(f'<rect x="{x:.0f}" y="{y:.0f}" width="{size:.0f}" height="{box}" rx="5" fill="#eef3f8" stroke="#4477aa"/>')
+        thousand = lines_of.get(room, 0) / 1000
+        parts.append(f'<text x="{x + size / 2:.0f}" y="{y + 20:.0f}" text-anchor="middle">{room} '
+                     f'<tspan fill="#777">{thousand:.1f}k</tspan></text>')
+    return "\n".join(parts + ["</svg>"]) + "\n"
+
+
+def main(arguments):
     root = Path(__file__).resolve().parent.parent
     files = sorted(
         path.relative_to(root)
@@ -112,6 +169,12 @@ def main():
         for path in (root / folder).rglob("*")
         if path.suffix in (".h", ".cpp")
     )
+    if len(arguments) == 2 and arguments[0] == "--svg":
+        Path(arguments[1]).write_text(svg(root, files), encoding="utf-8")
+        return 0
+    if arguments:
+        sys.stderr.write("usage: tools/check_layers.py [--svg FILE]\n")
+        return 2
     violations = 0
     for path in files:
         for number, message in check_file(root, path):
@@ -123,4 +186,4 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(sys.argv[1:]))

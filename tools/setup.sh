@@ -11,7 +11,7 @@ plumb_root="$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)"
 
 plumb_packages=(
     g++ cmake ninja-build
-    libembree-dev libopenimageio-dev libopenexr-dev libimath-dev
+    libembree-dev libopenimageio-dev libopenexr-dev libimath-dev libpng-dev libjpeg-dev
     libtinyobjloader-dev libpugixml-dev libtbb-dev libcli11-dev libfmt-dev libssl-dev zlib1g-dev catch2
 )
 [[ ${CXX:-} != clang++ ]] || plumb_packages+=(clang libclang-rt-dev)
@@ -33,7 +33,7 @@ missing_packages() {
 say_what_is_needed() {
     say "this system has no apt-get, so nothing can be installed for you"
     say "Plumb needs a C++20 compiler, CMake 3.22 and Ninja, and these libraries with their headers:"
-    say "    Embree 3.13 or 4, OpenImageIO, OpenEXR, Imath 3, tinyobjloader, pugixml, oneTBB, CLI11, fmt, OpenSSL 1.1 or 3, zlib, Catch2 2 or 3"
+    say "    Embree 3.13 or 4, OpenImageIO, OpenEXR, libpng, libjpeg-turbo, Imath 3, tinyobjloader, pugixml, oneTBB, CLI11, fmt, OpenSSL 1.1 or 3, zlib, Catch2 2 or 3"
     say "In Debian 12 and 13 they are: ${plumb_packages[*]}"
     say "When they are installed: PLUMB_SKIP_INSTALL=1 $0 ..."
 }

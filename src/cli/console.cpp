@@ -115,6 +115,25 @@ int output_columns()
     return columns_of(STDOUT_FILENO);
 }
 
+TerminalSize terminal_size()
+{
+    TerminalSize known;
+    winsize size{};
+    if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0 || size.ws_row == 0) return known;
+    known.columns = size.ws_col;
+    known.rows = size.ws_row;
+    if (size.ws_xpixel >= size.ws_col && size.ws_ypixel >= size.ws_row) { // few terminals say
+        known.cell_width = size.ws_xpixel / size.ws_col;
+        known.cell_height = size.ws_ypixel / size.ws_row;
+    }
+    return known;
+}
+
+void draw_on_terminal(std::string_view text)
+{
+    write_error(text);
+}
+
 void redraw_line(std::string_view text)
 {
     write_error("\r" + std::string(text) + "\033[K");

@@ -4,6 +4,7 @@
 // Standard output and standard error. Nothing else in src/cli prints. Names and texts that others chose are part of what is
 // printed: nothing that would steer a terminal gets through here (visible_text.h).
 
+#include "cli/terminal_frame.h"
 #include "plumb/base/error.h"
 
 #include <string_view>
@@ -22,8 +23,11 @@ void finish_output(); // throws Error if standard output could not take everythi
 
 // Standard error is a terminal that can redraw a line.
 bool log_is_terminal();
-int terminal_columns();                  // of standard error; 80 where nobody knows
-int output_columns();                    // of standard output; 80 where it is no terminal
+int terminal_columns();       // of standard error; 80 where nobody knows
+int output_columns();         // of standard output; 80 where it is no terminal
+TerminalSize terminal_size(); // of standard error
+// What steers the terminal: of our own making only. To standard error.
+void draw_on_terminal(std::string_view text);
 void redraw_line(std::string_view text); // replaces the line that the cursor is in; "" clears it
 
 } // namespace plumb

@@ -18,7 +18,7 @@ std::vector<MethodSettings> methods_of(const MethodsOptions& options, std::strin
             methods.back().sampler = sampler;
         }
     }
-    if (methods.size() < 2)
+    if (methods.size() + options.commands.size() < 2)
         throw UsageError(fmt::format("{} needs two estimators or more; name them with --integrators", verb));
     if (options.settings.stop.seconds && options.settings.samples.per_pixel)
         throw UsageError("--time and --spp cannot be used together");
@@ -40,7 +40,7 @@ void settle_methods(MethodsOptions& options)
     check_output_names({}, {{"--json", options.json}});
 }
 
-OptionTable<MethodsOptions> methods_options(const OptionTable<MethodsOptions>& rounds)
+OptionTable<MethodsOptions> methods_options(const OptionTable<MethodsOptions>& of_race)
 {
     using Options = MethodsOptions;
     const OptionTable<Options> methods = {
@@ -54,10 +54,11 @@ OptionTable<MethodsOptions> methods_options(const OptionTable<MethodsOptions>& r
          [](Options& o, std::string_view n, const std::string& t) { o.samplers = parse_list(n, t); }}};
     return join<Options>(
         {json_option<Options>(),
-         setting_options<Options>(Topic::image, &Options::settings, {"spp", "seed", "size"}), methods, rounds,
-         setting_options<Options>(Topic::image, &Options::settings, {"time"}), scene_options<Options>(),
-         threads_option<Options>(), setting_options<Options>(Topic::running, &Options::settings, {"isa"}),
-         quiet_option<Options>(), verbose_option<Options>(),
+         setting_options<Options>(Topic::image, &Options::settings, {"spp", "seed", "size"}), methods,
+         of_race, setting_options<Options>(Topic::image, &Options::settings, {"time"}),
+         scene_options<Options>(), threads_option<Options>(),
+         setting_options<Options>(Topic::running, &Options::settings, {"isa"}), quiet_option<Options>(),
+         verbose_option<Options>(),
          setting_options<Options>(Topic::verdict, &Options::how, {"significance", "fail-percent"}),
          help_option<Options>()});
 }

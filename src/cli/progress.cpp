@@ -3,6 +3,7 @@
 
 #include "base/text.h"
 #include "cli/console.h"
+#include "cli/terminal_frame.h"
 #include "plumb/render/render.h"
 
 #include <fmt/format.h>
@@ -12,6 +13,7 @@ namespace plumb {
 namespace {
 
 constexpr double redraw_seconds = 0.1;
+constexpr double picture_seconds = 0.5;
 
 std::string remaining_text(const Progress& progress)
 {
@@ -69,18 +71,27 @@ bool LinePace::due(const Progress& progress)
     return true;
 }
 
-ProgressDisplay::ProgressDisplay(bool quiet) : quiet_(quiet), terminal_(!quiet && log_is_terminal()) {}
+ProgressDisplay::ProgressDisplay(bool quiet, TerminalFrame* frame)
+    : frame_(frame), quiet_(quiet), terminal_(!quiet && log_is_terminal())
+{}
 
 ProgressDisplay::~ProgressDisplay()
 {
+    if (frame_ && drawn_) draw_on_terminal(frame_->draw(terminal_size())); // the last one stays
+    make_way();
+}
+
+void ProgressDisplay::make_way()
+{
     if (drawn_) redraw_line("");
+    if (frame_) frame_->leave();
 }
 
 void ProgressDisplay::show(const Progress& progress)
 {
     if (quiet_) return;
     if (progress.seconds < last_seconds_) { // another rendering
-        next_redraw_ = 0.0;
+        next_redraw_ = next_picture_ = 0.0;
         pace_ = {};
     }
     last_seconds_ = progress.seconds;
@@ -91,6 +102,10 @@ void ProgressDisplay::show(const Progress& progress)
     if (progress.seconds < next_redraw_) return;
     next_redraw_ = progress.seconds + redraw_seconds;
     drawn_ = true;
+    if (frame_ && progress.seconds >= next_picture_) {
+        next_picture_ = progress.seconds + picture_seconds;
+        draw_on_terminal(frame_->draw(terminal_size()));
+    }
     redraw_line(progress_bar(progress, terminal_columns()));
 }
 

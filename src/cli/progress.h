@@ -8,6 +8,7 @@
 namespace plumb {
 
 struct Progress;
+class TerminalFrame;
 
 int percent_done(const Progress& progress); // rounded down: 100 means finished
 // "42 %, 1.26 M of 3.00 M samples, 0:04, 0:05 left, 5.00 Mrays/s": done, elapsed, remaining.
@@ -27,14 +28,19 @@ private:
 // Prints to the console, of one rendering or of several after each other; an object's end clears the bar.
 class ProgressDisplay {
 public:
-    explicit ProgressDisplay(bool quiet);
+    // frame: a picture above the bar, or null; only on a terminal. It must outlive this.
+    explicit ProgressDisplay(bool quiet, TerminalFrame* frame = nullptr);
     ~ProgressDisplay();
     ProgressDisplay(const ProgressDisplay&) = delete;
     ProgressDisplay& operator=(const ProgressDisplay&) = delete;
 
     void show(const Progress& progress);
+    // Before anything else is printed: the bar goes, and the picture stays above it.
+    void make_way();
 
 private:
+    TerminalFrame* frame_;
+    double next_picture_ = 0.0; // seconds
     bool quiet_;
     bool terminal_;
     bool drawn_ = false;

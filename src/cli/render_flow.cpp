@@ -12,6 +12,7 @@
 #include "reports/exit_codes.h"
 
 #include <chrono>
+#include <cstdlib>
 #include <fmt/format.h>
 #include <future>
 
@@ -89,6 +90,12 @@ void log_message(const Diagnostic& message, bool quiet)
     }
 }
 
+TerminalFrame frame_of(const Preview& preview, const LiveOptions& options)
+{
+    const auto variable = [](const char* name) -> const char* { return std::getenv(name); };
+    return {preview, options.graphics.value_or(terminal_graphics(variable)), has_true_color(variable)};
+}
+
 } // namespace
 
 void check_flow(const RenderFlow& flow)
@@ -111,18 +118,39 @@ int run_flow(const RenderTask& task, const RenderFlow& flow)
     KeptFiles(paths_of(task.scene.inputs))
         .refuse(with_json(written, flow.json), "the scene reads this file; write to another");
 
+    check_denoising(images, task.settings.output);
     const bool has_checkpoint = !checkpoint_of(flow).empty();
     std::optional<InterruptGuard> guard(std::in_place,
                                         has_checkpoint ? Interruption::by_manager : Interruption::by_hand);
+    std::optional<LiveOutput> live;
+    std::optional<TerminalFrame> frame;
     std::optional<ProgressDisplay> display;
-    RenderSession session(task, flow.session,
-                          {.progress = [&](const Progress& progress) { display->show(progress); },
-                           .message = [&](const Diagnostic& message) { log_message(message, flow.quiet); },
-                           .stop = &InterruptGuard::flag()});
+    const auto print_message = [&](const Diagnostic& message) {
+        if (display) display->make_way();
+        log_message(message, flow.quiet);
+    };
+    const auto warn_of_viewer = [&] {
+        if (const auto problem = live ? live->take_problem() : std::nullopt)
+            print_message({Severity::warning, {}, *problem});
+    };
+    SessionCallbacks callbacks{
+        .progress = {}, .tile = {}, .message = print_message, .stop = &InterruptGuard::flag()};
+    callbacks.progress = [&](const Progress& progress) {
+        warn_of_viewer();
+        display->show(progress);
+    };
+    if (flow.live.any())
+        callbacks.tile = [&](const Film& film, const PixelRect& part) { live->show(film, part); };
+    RenderSession session(task, flow.session, callbacks);
     if (flow.resume) session.resume();
-    display.emplace(flow.quiet);
+    if (flow.live.any()) live.emplace(flow.live, task, session.state());
+    if (live && live->preview()) frame.emplace(frame_of(*live->preview(), flow.live));
+    warn_of_viewer();
+    display.emplace(flow.quiet, frame ? &*frame : nullptr);
     const int signal = session.run() == StopReason::interrupted ? InterruptGuard::signal() : 0;
     display.reset();
+    warn_of_viewer();
+    live.reset();
     if (!has_checkpoint) guard.reset(); // else until it is written
 
     // Whoever sends a signal does not wait long: checkpoint and images are written at the same time.
@@ -136,7 +164,7 @@ int run_flow(const RenderTask& task, const RenderFlow& flow)
     std::vector<std::string> problems;
     try {
         if (!images.empty())
-            write_images(images, session.image(report.evidence), task.settings.output.exposure,
+            write_images(images, session.image(report.evidence), task.settings.output,
                          packing_of(report.evidence), flow.session.checkpoint.file.parent_path());
     } catch (const Error& error) {
         problems.emplace_back(error.what());

@@ -3,6 +3,7 @@
 
 // A rendering with all that it writes and says: what `renderer` and `renderer rerun` share.
 
+#include "cli/live_output.h"
 #include "plumb/rendering/session.h"
 
 #include <string>
@@ -16,6 +17,7 @@ struct RenderFlow {
     std::string json;                 // empty: no report; "-": standard output
     bool resume = false;
     bool quiet = false;
+    LiveOptions live = {};
     std::string typed; // the words of the command line, to resume with
 };
 

@@ -14,20 +14,25 @@ namespace plumb {
 
 // A row for each.
 static constexpr const Verb& (*const rows[])() = {
-    verb<struct RenderVerb>,  //
-    verb<struct NewVerb>,     //
-    verb<struct HelpVerb>,    //
-    verb<struct TypesVerb>,   //
-    verb<struct InfoVerb>,    //
-    verb<struct ReplayVerb>,  //
-    verb<struct RerunVerb>,   //
-    verb<struct MergeVerb>,   //
-    verb<struct CheckVerb>,   //
-    verb<struct CompareVerb>, //
-    verb<struct AgreeVerb>,   //
-    verb<struct RaceVerb>,    //
-    verb<struct TestVerb>,    //
-    verb<struct BatchVerb>,   //
+    verb<struct RenderVerb>,     //
+    verb<struct NewVerb>,        //
+    verb<struct HelpVerb>,       //
+    verb<struct TypesVerb>,      //
+    verb<struct SchemaVerb>,     //
+    verb<struct InfoVerb>,       //
+    verb<struct ViewVerb>,       //
+    verb<struct DenoiseVerb>,    //
+    verb<struct ReplayVerb>,     //
+    verb<struct RerunVerb>,      //
+    verb<struct MergeVerb>,      //
+    verb<struct CheckVerb>,      //
+    verb<struct CompareVerb>,    //
+    verb<struct AgreeVerb>,      //
+    verb<struct RaceVerb>,       //
+    verb<struct TestVerb>,       //
+    verb<struct BatchVerb>,      //
+    verb<struct CompletionVerb>, //
+    verb<struct ManVerb>,        //
 };
 
 std::span<const Verb* const> all_verbs()

@@ -30,32 +30,11 @@ std::optional<Places> find_channels(const Image& image, const Names& names)
     return places;
 }
 
-std::string layer_of(const std::string& channel) // empty: none
-{
-    const std::size_t dot = channel.rfind('.');
-    return dot == std::string::npos ? "" : channel.substr(0, dot);
-}
-
-std::string part_of(const std::string& channel) // behind the layer
-{
-    return channel.substr(channel.rfind('.') + 1);
-}
-
 Names prefixed(const std::string& prefix, const Names& names)
 {
     Names all;
     for (const std::string& name : names) all.push_back(prefix + name);
     return all;
-}
-
-Names layers_of(const Image& image)
-{
-    Names layers;
-    for (const std::string& name : image.channel_names())
-        if (const std::string layer = layer_of(name);
-            !layer.empty() && std::find(layers.begin(), layers.end(), layer) == layers.end())
-            layers.push_back(layer);
-    return layers;
 }
 
 // "R", "G", "B" or "r", "g", "b" behind the prefix.
@@ -166,6 +145,35 @@ std::optional<ChosenChannels> luminance_with_moments(const Image& image)
 }
 
 } // namespace
+
+std::string layer_of(const std::string& channel)
+{
+    const std::size_t dot = channel.rfind('.');
+    return dot == std::string::npos ? "" : channel.substr(0, dot);
+}
+
+std::string part_of(const std::string& channel)
+{
+    return channel.substr(channel.rfind('.') + 1);
+}
+
+std::vector<std::string> layers_of(const Image& image)
+{
+    Names layers;
+    for (const std::string& name : image.channel_names())
+        if (const std::string layer = layer_of(name);
+            !layer.empty() && std::find(layers.begin(), layers.end(), layer) == layers.end())
+            layers.push_back(layer);
+    return layers;
+}
+
+std::vector<std::string> color_channels(const Image& image)
+{
+    if (const auto colors = colors_behind(image, "")) return *colors;
+    if (find_channels(image, {"Y"})) return {"Y"};
+    const std::string main = main_layer(image);
+    return main.empty() ? Names() : *colors_behind(image, main + ".");
+}
 
 std::string header_text(const Image& image, std::string_view name)
 {

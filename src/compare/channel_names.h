@@ -40,6 +40,13 @@ struct ChosenChannels {
 ChosenChannels choose_channels(const Image& image, Side side, const std::string& layer,
                                bool samples_are_known);
 
+// The channels that show what the image looks like: R, G and B, Y, or those of its main layer; empty: there are none.
+std::vector<std::string> color_channels(const Image& image);
+std::vector<std::string> layers_of(const Image& image);
+// What stands before the last dot of a channel's name, if there is one, and behind it.
+std::string layer_of(const std::string& channel);
+std::string part_of(const std::string& channel);
+
 bool has_layer(const Image& image, const std::string& layer);
 bool is_layer_of_colors(const Image& image,
                         const std::string& layer); // red, green and blue, with or without alpha

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 
-// Errors in false colours, above a bar that tells which colour is how much.
+// Errors in false colours.
 
 #include "compare/estimate.h"
+#include "compare/false_color_image.h"
 #include "plumb/base/error.h"
+#include "plumb/image/false_color.h"
 
 #include <fmt/format.h>
 
@@ -11,98 +13,12 @@ namespace plumb {
 
 namespace {
 
-constexpr int bar_height = 8;
-constexpr int strip_height = 22; // bar and numbers
-constexpr int glyph_width = 3;
-constexpr int glyph_height = 5;
-constexpr int least_width = 96; // room for the numbers
-constexpr Color background(0.02f);
-constexpr Color green(0.f, 1.f, 0.f); // not finite
-
-// From no error to the largest, in sRGB: dark blue, purple, red, orange, pale yellow, each lighter than the last.
-Color false_color(double error)
-{
-    constexpr float stops[][3] = {{0.f, 0.f, 0.04f},     {0.16f, 0.04f, 0.33f}, {0.52f, 0.12f, 0.42f},
-                                  {0.87f, 0.32f, 0.23f}, {0.98f, 0.65f, 0.04f}, {0.99f, 1.f, 0.7f}};
-    constexpr int last = 5;
-    const double position = std::clamp(error, 0.0, 1.0) * last;
-    const int below = std::min(static_cast<int>(position), last - 1);
-    const auto t = static_cast<float>(position - below);
-    const auto channel = [&](int i) {
-        return linear_from_srgb(lerp(stops[below][i], stops[below + 1][i], t));
-    };
-    return {channel(0), channel(1), channel(2)};
-}
-
-// Five rows of three pixels, from the top; '#' is lit.
-std::string_view glyph(char c)
-{
-    switch (c) {
-    case '0': return "####.##.##.####";
-    case '1': return ".#.##..#..#.###";
-    case '2': return "###..#####..###";
-    case '3': return "###..####..####";
-    case '4': return "#.##.####..#..#";
-    case '5': return "####..###..####";
-    case '6': return "####..####.####";
-    case '7': return "###..#..#..#..#";
-    case '8': return "####.#####.####";
-    case '9': return "####.####..####";
-    case '.': return ".............#.";
-    case '-': return "......###......";
-    case '+': return "....#.###.#....";
-    case 'e': return "...####.##..###";
-    default: return "...............";
-    }
-}
-
-void set(Image& image, int x, int y, const Color& color)
-{
-    if (x < 0 || y < 0 || x >= image.full_width() || y >= image.full_height()) return;
-    float* const pixel = image.pixel(x, y);
-    for (int channel = 0; channel < 3; ++channel) pixel[channel] = color[channel];
-}
-
-int text_width(std::string_view text)
-{
-    return static_cast<int>(text.size()) * (glyph_width + 1) - 1;
-}
-
-void draw_text(Image& image, int x, int y, std::string_view text)
-{
-    for (const char c : text) {
-        const std::string_view dots = glyph(c);
-        for (int i = 0; i < glyph_width * glyph_height; ++i)
-            if (dots[static_cast<std::size_t>(i)] == '#')
-                set(image, x + i % glyph_width, y + i / glyph_width, Color(0.8f));
-        x += glyph_width + 1;
-    }
-}
-
 // errors: NaN where a pixel is not finite. largest: what the lightest colour stands for.
-Image draw(const std::vector<float>& errors, int width, int height, double largest)
+Image draw(std::vector<float> errors, int width, int height, double largest)
 {
-    const int full_width = std::max(width, least_width);
-    Image image(full_width, height + strip_height);
-    for (int y = 0; y < image.full_height(); ++y)
-        for (int x = 0; x < full_width; ++x) set(image, x, y, background);
-    std::size_t i = 0;
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x, ++i)
-            set(image, x, y,
-                std::isnan(errors[i]) ? green : false_color(static_cast<double>(errors[i]) / largest));
-
-    const int top = height + 3;
-    for (int x = 0; x < full_width; ++x)
-        for (int y = top; y < top + bar_height; ++y)
-            set(image, x, y, false_color(static_cast<double>(x) / (full_width - 1)));
-    const int text_y = top + bar_height + 3;
-    const std::string middle = fmt::format("{:.3g}", largest / 2.0);
-    const std::string end = fmt::format("{:.3g}", largest);
-    draw_text(image, 1, text_y, "0");
-    draw_text(image, (full_width - text_width(middle)) / 2, text_y, middle);
-    draw_text(image, full_width - 1 - text_width(end), text_y, end);
-    return image;
+    for (float& error : errors) error = static_cast<float>(static_cast<double>(error) / largest);
+    return false_color_image(errors, width, height,
+                             {"0", fmt::format("{:.3g}", largest / 2.0), fmt::format("{:.3g}", largest)});
 }
 
 // The error that one pixel in 200 exceeds: single bright pixels do not make all others dark.

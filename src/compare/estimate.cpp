@@ -3,6 +3,8 @@
 #include "compare/channel_names.h"
 
 #include "plumb/base/error.h"
+#include "plumb/denoise/denoise.h"
+#include "plumb/image/development.h"
 
 #include <algorithm>
 #include <bit>
@@ -121,6 +123,8 @@ ComparedImage make_compared_image(const Image& image, Side side, const CompareSe
     compared.estimator = estimator_of(image);
     compared.seed = header_text(image, "plumb:seed");
     compared.is_for_screens = !header_text(image, screen_mark).empty();
+    compared.denoised = denoised_text(image.metadata);
+    compared.display = display_text(image.metadata);
     compared.is_luminance = chosen.is_luminance;
     compared.is_half = halves_hold(compared.values);
     if (chosen.variances.empty()) return compared;
@@ -176,6 +180,18 @@ bool share_random_numbers(const ComparedImage& a, const ComparedImage& b)
 
 void check_comparable(const ComparedImage& a, const ComparedImage& b)
 {
+    if (!b.denoised.empty())
+        throw Error(
+            fmt::format("B was denoised ({}), and a reference must not be: its error is unknown; compare "
+                        "with the image that was denoised",
+                        b.denoised));
+    const auto how = [](const ComparedImage& image) {
+        return image.display.empty() ? "without a curve or exposure" : "as '" + image.display + "'";
+    };
+    if (a.display != b.display)
+        throw Error(fmt::format("the images were developed differently: A {}, B {}; compare images of light, "
+                                "such as .exr files",
+                                how(a), how(b)));
     if (size_text(a) != size_text(b))
         throw Error(
             fmt::format("the images have different sizes: A is {}, B is {}", size_text(a), size_text(b)));

@@ -21,10 +21,12 @@ struct ComparedImage {
     double inflation = 1.0;      // variance of a sum of pixels over the sum of their variances
     std::string noise = "none";  // where the variances come from
     bool is_for_screens = false; // 8-bit integers or the like: rounded, and clipped at 1
-    bool is_luminance = false;   // of an image that has colours as well
-    bool is_half = false;        // 16-bit floats can hold every value
-    std::string estimator;       // Estimate's
-    std::string seed;            // of its random numbers; empty: unknown
+    std::string display;       // development.h's display_text: values with different texts are not comparable
+    std::string denoised;      // by what; empty: nothing says that it was
+    bool is_luminance = false; // of an image that has colours as well
+    bool is_half = false;      // 16-bit floats can hold every value
+    std::string estimator;     // Estimate's
+    std::string seed;          // of its random numbers; empty: unknown
 
     std::size_t pixels() const { return values.size() / channels.size(); }
     bool is_exact = false; // has no noise, whatever the channels say

@@ -5,6 +5,7 @@
 #include "compare/flip.h"
 
 #include "compare/flip_ldr.h"
+#include "plumb/image/development.h"
 
 namespace plumb {
 
@@ -20,24 +21,12 @@ FlipError with_mean(std::vector<float> map)
     return {std::move(map), mean};
 }
 
-// The ACES curve as fitted by Narkowicz, its exposure of 0.6 taken back: (a0 x^2 + a1 x) / (b0 x^2 + b1 x + b2).
-constexpr double aces_a0 = 0.36 * 2.51;
-constexpr double aces_a1 = 0.6 * 0.03;
-constexpr double aces_b0 = 0.36 * 2.43;
-constexpr double aces_b1 = 0.6 * 0.59;
-constexpr double aces_b2 = 0.14;
-
-double tone_curve(double x)
-{
-    return std::clamp((aces_a0 * x * x + aces_a1 * x) / (aces_b0 * x * x + aces_b1 * x + aces_b2), 0.0, 1.0);
-}
-
 std::vector<Vec3d> tone_mapped(const std::vector<Color>& image, double exposure)
 {
     const double scale = exp(exposure * ln_2);
     std::vector<Vec3d> result;
     result.reserve(image.size());
-    const auto map = [scale](float x) { return tone_curve(scale * std::max(0.0, static_cast<double>(x))); };
+    const auto map = [scale](float x) { return aces_curve(scale * std::max(0.0, static_cast<double>(x))); };
     for (const Color& c : image) result.emplace_back(map(c.r), map(c.g), map(c.b));
     return result;
 }
@@ -73,9 +62,10 @@ std::vector<double> exposures(const std::vector<Color>& reference)
 
     // Where the tone curve reaches 0.85: the larger root of a quadratic equation.
     constexpr double nearly_white = 0.85;
-    const double a = aces_a0 - nearly_white * aces_b0;
-    const double b = aces_a1 - nearly_white * aces_b1;
-    const double c = -nearly_white * aces_b2;
+    using F = AcesFraction;
+    const double a = F::a0 - nearly_white * F::b0;
+    const double b = F::a1 - nearly_white * F::b1;
+    const double c = -nearly_white * F::b2;
     const double x_max = (-b + std::sqrt(b * b - 4.0 * a * c)) / (2.0 * a);
 
     const double middle = median(all);

@@ -8,6 +8,7 @@
 #include "compare/correlation.h"
 #include "plumb/base/error.h"
 #include "plumb/compare/compare.h"
+#include "plumb/image/development.h"
 
 #include <algorithm>
 #include <array>
@@ -66,6 +67,9 @@ void check_replicas(const std::vector<Image>& replicas, Side side, const std::ve
             throw Error(fmt::format("{} and {} have different channels: {} and {}", name_of(side, 0),
                                     name_of(side, k), fmt::join(first.channel_names(), ", "),
                                     fmt::join(image.channel_names(), ", ")));
+        if (display_text(image.metadata) != display_text(first.metadata))
+            throw Error(fmt::format("{} and {} were developed differently, with another curve or exposure",
+                                    name_of(side, 0), name_of(side, k)));
     }
     for (std::size_t k = 0; k < replicas.size(); ++k)
         for (std::size_t j = 0; j < k; ++j)
@@ -188,11 +192,6 @@ Image mean_of_replicas(const std::vector<Image>& replicas, Side side)
         }
     }
     return result;
-}
-
-void mark_for_screens(Image& image)
-{
-    image.metadata.emplace_back(screen_mark, 1);
 }
 
 } // namespace plumb

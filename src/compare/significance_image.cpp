@@ -4,6 +4,7 @@
 
 #include "compare/estimate.h"
 #include "plumb/base/error.h"
+#include "plumb/image/false_color.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +14,6 @@ namespace plumb {
 namespace {
 
 constexpr Color red(0.9f, 0.02f, 0.01f);
-constexpr Color green(0.f, 1.f, 0.f);
 constexpr float brightest = 0.35f; // of the grey image, so that the colours stand out
 
 // How much of the colour covers the image: all of it for a pixel, less for larger squares.
@@ -40,7 +40,8 @@ Image significance_image(const Image& image_a, const Image& image_b, const Compa
             const float light = is_finite ? std::max(0.f, luminance(a.color(i))) : 0.f;
             const Color grey(brightest * light / (1.f + light));
             const float part = cover(sizes[i]);
-            const Color color = is_finite == b.is_finite(i) ? (1.f - part) * grey + part * red : green;
+            const Color color =
+                is_finite == b.is_finite(i) ? (1.f - part) * grey + part * red : not_finite_color;
             for (int channel = 0; channel < 3; ++channel) image.pixel(x, y)[channel] = color[channel];
         }
     }

@@ -69,7 +69,10 @@ Significance find_significance(const ComparedImage& a, const ComparedImage& b, c
     if (a.is_exact && b.is_exact) return without_tests(std::nullopt, "neither image has noise");
     if (is_unfit(a) && is_unfit(b))
         return without_tests(
-            std::nullopt, "both images are rounded to integers and clipped at 1, which changes their means");
+            std::nullopt, a.display.empty()
+                              ? "both images are rounded to integers and clipped at 1, which changes their "
+                                "means"
+                              : fmt::format("both images were developed for screens ({})", a.display));
     if (is_unfit(a) || is_unfit(b))
         return without_tests(
             Verdict::undecided,

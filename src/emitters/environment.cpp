@@ -24,7 +24,7 @@ namespace plumb {
 ///
 /// Directions are chosen in proportion to the luminance that they show.
 ///
-///     filename       string      the image, in any format that OpenImageIO reads   (default: none, one colour)
+///     filename       string      the image: EXR, HDR, PNG, JPEG, BMP, TGA; with OpenImageIO any that it reads   (default: none, one colour)
 ///     radiance       color       multiplies the image; without one, the radiance, in W / (m^2 sr)   (default 1)
 ///     scale          float       multiplies radiance, at least 0   (default 1)
 ///     toWorld        transform   turns or mirrors the image about the scene: it maps the directions above to those of the

@@ -8,6 +8,7 @@ namespace plumb {
 Agreement agree(SceneFile& file, const AgreeSettings& settings, int threads,
                 const SessionCallbacks& callbacks)
 {
+    if (settings.methods.size() < 2) throw Error("two methods or more are needed");
     std::vector<RenderTask> tasks = tasks_of(file, settings, threads);
     std::vector<Estimate> estimates;
     std::vector<std::uint64_t> samples_of;

@@ -31,29 +31,28 @@ constexpr Known known[] = {{"image", "", false},
                            {"threads", "", false},
                            {"directory", "", true}};
 
-Placeholders values_of(const SuiteJob& job, int replica)
+Placeholders values_of(const ForeignRequest& request, int replica)
 {
-    const SuiteEntry& entry = job.entry;
     Placeholders values;
-    values["name"] = entry.name;
+    values["name"] = request.name;
     values["replica"] = std::to_string(replica + 1);
-    values["seed"] = std::to_string(job.image.samples.seed + static_cast<std::uint64_t>(replica));
-    values["directory"] = directory_of(*entry.foreign).string();
-    if (!entry.scene.empty()) values["scene"] = fs::absolute(entry.scene).lexically_normal().string();
-    if (!entry.foreign->inputs.empty())
-        values["input"] = fs::absolute(entry.foreign->inputs.front()).lexically_normal().string();
-    if (const auto spp = job.image.samples.per_pixel) values["spp"] = std::to_string(*spp);
-    if (const auto size = job.image.view.size) {
-        values["width"] = std::to_string(size->x);
-        values["height"] = std::to_string(size->y);
+    values["seed"] = std::to_string(request.seed + static_cast<std::uint64_t>(replica));
+    values["directory"] = directory_of(request.foreign).string();
+    if (!request.scene.empty()) values["scene"] = fs::absolute(request.scene).lexically_normal().string();
+    if (!request.foreign.inputs.empty())
+        values["input"] = fs::absolute(request.foreign.inputs.front()).lexically_normal().string();
+    if (request.samples) values["spp"] = std::to_string(*request.samples);
+    if (request.size) {
+        values["width"] = std::to_string(request.size->x);
+        values["height"] = std::to_string(request.size->y);
     }
     return values;
 }
 
 // What keeps the placeholders of the text from having values; empty: nothing does.
-std::string problem_of(const SuiteJob& job, std::string_view text, bool is_command)
+std::string problem_of(const ForeignRequest& request, std::string_view text, bool is_command)
 {
-    Placeholders values = values_of(job, 0);
+    Placeholders values = values_of(request, 0);
     if (is_command) values["image"] = values["threads"] = "1";
     for (const std::string& name : placeholders_in(text)) {
         if (values.contains(name)) continue;
@@ -78,13 +77,13 @@ bool has_placeholder(std::string_view text, std::initializer_list<std::string_vi
     });
 }
 
-std::string problem_of(const SuiteJob& job)
+std::string problem_of(const ForeignRequest& request)
 {
-    const ForeignImage& foreign = *job.entry.foreign;
+    const ForeignImage& foreign = request.foreign;
     const bool is_command = !foreign.command.empty();
     const std::string& text = is_command ? foreign.command : foreign.image;
     if (is_command && command_words(text).empty()) return "the command is empty";
-    if (std::string problem = problem_of(job, text, is_command); !problem.empty()) return problem;
+    if (std::string problem = problem_of(request, text, is_command); !problem.empty()) return problem;
     if (is_command && !has_placeholder(text, {"image"}))
         return "the command does not say where to write; put {image} into it";
     if (foreign.replicas > 1 && !has_placeholder(text, {"seed", "replica"}))
@@ -95,41 +94,50 @@ std::string problem_of(const SuiteJob& job)
 
 } // namespace
 
+ForeignRequest request_of(const SuiteJob& job)
+{
+    return {job.entry.name,
+            job.entry.scene,
+            *job.entry.foreign,
+            job.image.samples.seed,
+            job.image.samples.per_pixel,
+            job.image.view.size};
+}
+
 fs::path directory_of(const ForeignImage& foreign)
 {
     const fs::path directory = fs::path(foreign.at.file).parent_path();
     return directory.empty() ? fs::current_path() : fs::absolute(directory).lexically_normal();
 }
 
-void check_foreign(const SuiteJob& job, Diagnostics& diagnostics)
+std::string foreign_problem(const ForeignRequest& request)
 {
-    std::string problem;
     try {
-        problem = problem_of(job);
+        return problem_of(request);
     } catch (const Error& error) {
-        problem = error.what();
+        return error.what();
     }
-    if (!problem.empty()) diagnostics.error(job.entry.foreign->at, problem);
 }
 
-std::vector<std::string> command_of(const SuiteJob& job, int replica, const fs::path& image, int threads)
+std::vector<std::string> command_of(const ForeignRequest& request, int replica, const fs::path& image,
+                                    int threads)
 {
-    Placeholders values = values_of(job, replica);
+    Placeholders values = values_of(request, replica);
     values["image"] = image.string();
     values["threads"] = std::to_string(threads > 0 ? static_cast<unsigned>(threads)
                                                    : std::max(1U, std::thread::hardware_concurrency()));
     std::vector<std::string> words;
-    for (const std::string& word : command_words(job.entry.foreign->command))
+    for (const std::string& word : command_words(request.foreign.command))
         words.push_back(with_placeholders(word, values));
     return words;
 }
 
-std::vector<fs::path> given_images(const SuiteJob& job)
+std::vector<fs::path> given_images(const ForeignRequest& request)
 {
     std::vector<fs::path> images;
-    for (int replica = 0; replica < job.entry.foreign->replicas; ++replica)
-        images.emplace_back((fs::path(job.entry.foreign->at.file).parent_path() /
-                             with_placeholders(job.entry.foreign->image, values_of(job, replica)))
+    for (int replica = 0; replica < request.foreign.replicas; ++replica)
+        images.emplace_back((fs::path(request.foreign.at.file).parent_path() /
+                             with_placeholders(request.foreign.image, values_of(request, replica)))
                                 .lexically_normal());
     return images;
 }

@@ -4,8 +4,9 @@
 #include "base/child_process.h"
 #include "base/text.h"
 #include "base/text_file.h"
-#include "experiments/foreign_command.h"
+#include "base/visible_text.h"
 #include "plumb/base/hash.h"
+#include "plumb/compare/compare.h"
 
 #include <algorithm>
 #include <cstring>
@@ -29,16 +30,17 @@ std::string end_of(const std::string& output)
 }
 
 // Empty: it did what it should.
-std::string problem_of(const ChildRun& run, double timeout)
+std::string problem_of(const ChildRun& run, const ForeignImage& foreign)
 {
+    const bool is_of_file = !foreign.at.file.empty();
     switch (run.end) {
     case ChildRun::End::exited:
         return run.code == 0 ? "" : fmt::format("the command failed with exit code {}", run.code);
     case ChildRun::End::signalled:
         return fmt::format("the command was killed by signal {} ({})", run.code, strsignal(run.code));
     case ChildRun::End::timed_out:
-        return fmt::format("the command was stopped after {}; allow more with timeout=\"...\"",
-                           duration_text(timeout));
+        return fmt::format("the command was stopped after {}; allow more with {}",
+                           duration_text(foreign.timeout), is_of_file ? R"(timeout="...")" : "--timeout");
     case ChildRun::End::stopped: return "interrupted";
     }
     return {};
@@ -88,14 +90,13 @@ private:
 
 std::string stem_of_replica(const ForeignJob& job, int replica)
 {
-    return job.job.entry.foreign->replicas == 1 ? job.stem : fmt::format("{}_r{}", job.stem, replica + 1);
+    return job.request.foreign.replicas == 1 ? job.stem : fmt::format("{}_r{}", job.stem, replica + 1);
 }
 
-// What cannot be read takes nothing's place.
-void check_readable(const fs::path& written, const ForeignImage& foreign, const ProgramRun& run)
+Image read_written(const fs::path& written, const ForeignImage& foreign, const ProgramRun& run)
 {
     try {
-        read_image(written, false);
+        return read_to_compare(written);
     } catch (const Error& error) {
         throw ProgramError(foreign.at, error.what(), run);
     }
@@ -103,15 +104,16 @@ void check_readable(const fs::path& written, const ForeignImage& foreign, const 
 
 ChildRun run_replica(const ForeignJob& job, int replica, const WorkDirectory& work)
 {
-    const ForeignImage& foreign = *job.job.entry.foreign;
-    const std::vector<std::string> words = command_of(job.job, replica, work.image(), job.threads);
+    const ForeignImage& foreign = job.request.foreign;
+    const std::vector<std::string> words = command_of(job.request, replica, work.image(), job.threads);
     const fs::path program = find_program(words.front(), directory_of(foreign));
     if (program.empty())
-        throw ProgramError(
-            foreign.at,
-            fmt::format("cannot run '{}': there is no program of this name {}", words.front(),
-                        words.front().find('/') == std::string::npos ? "in PATH" : "beside the suite"),
-            {});
+        throw ProgramError(foreign.at,
+                           fmt::format("cannot run '{}': there is no program of this name {}", words.front(),
+                                       words.front().find('/') == std::string::npos ? "in PATH"
+                                       : foreign.at.file.empty()                    ? "here"
+                                                                                    : "beside the suite"),
+                           {});
     return run_child({.program = program,
                       .words = words,
                       .directory = work.path(),
@@ -122,11 +124,17 @@ ChildRun run_replica(const ForeignJob& job, int replica, const WorkDirectory& wo
 
 } // namespace
 
+std::string output_text(const ProgramRun& run)
+{
+    std::string text;
+    for (const std::string& line : lines_of(run.output)) text += "\n    " + visible_text(line);
+    return text.empty() ? "\n    (it printed nothing)" : text;
+}
+
 std::string foreign_key(const ForeignJob& job)
 {
-    const SuiteJob& suite_job = job.job;
-    const ForeignImage& foreign = *suite_job.entry.foreign;
-    const std::vector<std::string> words = command_of(suite_job, 0, "image.exr", 1);
+    const ForeignImage& foreign = job.request.foreign;
+    const std::vector<std::string> words = command_of(job.request, 0, "image.exr", 1);
     std::vector<fs::path> files = {find_program(words.front(), directory_of(foreign))};
     for (std::size_t i = 1; i < words.size(); ++i) {
         std::error_code ignored;
@@ -153,14 +161,14 @@ std::string foreign_key(const ForeignJob& job)
 std::vector<std::string> expected_images(const ForeignJob& job)
 {
     std::vector<std::string> files;
-    for (int replica = 0; replica < job.job.entry.foreign->replicas; ++replica)
+    for (int replica = 0; replica < job.request.foreign.replicas; ++replica)
         files.push_back(stem_of_replica(job, replica) + ".exr");
     return files;
 }
 
 ForeignImages run_command(const ForeignJob& job)
 {
-    const ForeignImage& foreign = *job.job.entry.foreign;
+    const ForeignImage& foreign = job.request.foreign;
     ForeignImages made;
     for (int replica = 0; replica < foreign.replicas; ++replica) {
         const WorkDirectory work(job.stem);
@@ -170,13 +178,13 @@ ForeignImages run_command(const ForeignJob& job)
         made.run.peak_memory = std::max(made.run.peak_memory, run.peak_memory);
         made.run.output = end_of(run.output);
         if (run.end == ChildRun::End::stopped) throw Error("interrupted");
-        if (const std::string problem = problem_of(run, foreign.timeout); !problem.empty())
+        if (const std::string problem = problem_of(run, foreign); !problem.empty())
             throw ProgramError(foreign.at, problem, made.run);
         const fs::path written = work.written_image();
         if (written.empty())
             throw ProgramError(foreign.at,
                                "the command ended without an error, but wrote no image to {image}", made.run);
-        check_readable(written, foreign, made.run);
+        made.images.push_back(read_written(written, foreign, made.run)); // else it takes nothing's place
         const std::string file = stem_of_replica(job, replica) + written.extension().string();
         std::error_code problem;
         fs::rename(written, file, problem);

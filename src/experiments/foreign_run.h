@@ -3,7 +3,7 @@
 
 // Images of other programs. What these write may be anything, or nothing.
 
-#include "plumb/experiments/suite_run.h"
+#include "experiments/foreign_command.h"
 
 namespace plumb {
 
@@ -21,9 +21,12 @@ private:
     ProgramRun run_;
 };
 
+// Lines to be added to a message: what a program printed last.
+std::string output_text(const ProgramRun& run);
+
 // How the command of an image is run.
 struct ForeignJob {
-    const SuiteJob& job;
+    ForeignRequest request;
     std::string stem; // of the images: "batch/suite/box_16"
     int threads = 0;
     const std::atomic<bool>* stop = nullptr;
@@ -35,6 +38,7 @@ std::string foreign_key(const ForeignJob& job);
 
 struct ForeignImages {
     std::vector<std::string> files; // one a replica: "box_16.exr", or "box_16_r1.exr" and so on
+    std::vector<Image> images;      // in them
     ProgramRun run;
 };
 

@@ -2,6 +2,7 @@
 #include "experiments/pairs.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace plumb {
 
@@ -13,12 +14,17 @@ std::string method_name(const MethodSettings& method)
 
 std::vector<RenderTask> tasks_of(SceneFile& file, const AgreeSettings& settings, int threads)
 {
-    if (settings.methods.size() < 2) throw Error("two methods or more are needed");
     std::vector<RenderTask> tasks;
     for (const MethodSettings& method : settings.methods) {
         RenderSettings one = settings.base;
         one.method = method;
-        tasks.push_back(make_task(file, one));
+        try {
+            tasks.push_back(make_task(file, one));
+        } catch (const SceneError& error) {
+            std::vector<Diagnostic> all = error.diagnostics();
+            all.push_back({Severity::note, {}, fmt::format("the estimator is '{}'", method_name(method))});
+            throw SceneError(std::move(all));
+        }
         tasks.back().options.threads = threads;
     }
     return tasks;

@@ -7,7 +7,7 @@
 
 namespace plumb {
 
-// Throws Error if there are fewer than two methods.
+// Of each method. What one of them cannot be is said with its name.
 std::vector<RenderTask> tasks_of(SceneFile& file, const AgreeSettings& settings, int threads);
 
 // Throws Error if somebody stops it.

@@ -103,7 +103,7 @@ std::vector<fs::path> files_to_keep(const fs::path& suite, const std::vector<Sui
         if (!entry.foreign) continue;
         files.insert(entry.foreign->inputs.begin(), entry.foreign->inputs.end());
         if (!entry.foreign->command.empty()) continue;
-        const std::vector<fs::path> images = given_images(job);
+        const std::vector<fs::path> images = given_images(request_of(job));
         files.insert(images.begin(), images.end());
     }
     return {files.begin(), files.end()};

@@ -67,12 +67,9 @@ std::string compared_files(const SuiteResult& result)
 }
 
 // The mean of the replicas, where there are several.
-Image read_images(const std::vector<std::string>& files)
+Image mean_of(std::vector<Image> replicas)
 {
-    if (files.size() == 1) return read_image(files.front(), true);
-    std::vector<Image> replicas;
-    for (const std::string& file : files) replicas.push_back(read_image(file, true));
-    return mean_of_replicas(replicas, Side::a);
+    return replicas.size() == 1 ? std::move(replicas.front()) : mean_of_replicas(replicas, Side::a);
 }
 
 // Its colours alone, for looking at: channels may have any names.
@@ -147,10 +144,12 @@ void SuiteRunner::run_program(const SuiteJob& job, SuiteResult& result)
     if (!options_.allow_commands)
         throw ProgramError(foreign.at, "this entry runs a command, which needs --allow-commands",
                            {.output = result.command});
-    const ForeignJob work{job, stem_of(result.title), options_.threads, callbacks_.stop};
+    require_reference(job.entry);
+    const ForeignJob work{request_of(job), stem_of(result.title), options_.threads, callbacks_.stop};
     const std::string key = foreign_key(work);
     std::vector<std::string> files = expected_images(work);
     result.up_to_date = !options_.force && state_.is_up_to_date(result.title, key, files);
+    std::vector<Image> images;
     if (!result.up_to_date) {
         std::vector<std::string> outputs = files;
         outputs.push_back(work.stem + ".png");
@@ -158,6 +157,7 @@ void SuiteRunner::run_program(const SuiteJob& job, SuiteResult& result)
         try {
             ForeignImages made = run_command(work);
             files = std::move(made.files);
+            images = std::move(made.images);
             result.program = std::move(made.run);
         } catch (const ProgramError&) {
             throw;
@@ -167,7 +167,7 @@ void SuiteRunner::run_program(const SuiteJob& job, SuiteResult& result)
         }
         kept_.refuse(files, "it is a scene or a reference of the suite");
     }
-    show_foreign(job, files, result);
+    show_foreign(job, files, std::move(images), result);
     // What cannot be read is no result.
     if (!result.up_to_date) state_.note(result.title, key, files);
     compare_with_reference(job, result);
@@ -176,7 +176,7 @@ void SuiteRunner::run_program(const SuiteJob& job, SuiteResult& result)
 void SuiteRunner::take_image(const SuiteJob& job, SuiteResult& result)
 {
     std::vector<std::string> files;
-    for (const fs::path& file : given_images(job)) {
+    for (const fs::path& file : given_images(request_of(job))) {
         std::error_code ignored;
         if (!fs::exists(file, ignored))
             throw SceneError({Diagnostic{Severity::error, job.entry.foreign->at,
@@ -184,15 +184,18 @@ void SuiteRunner::take_image(const SuiteJob& job, SuiteResult& result)
         files.push_back(file.string());
     }
     prepare_outputs(job, stem_of(result.title), {stem_of(result.title) + ".png"});
-    show_foreign(job, files, result);
+    show_foreign(job, files, {}, result);
     compare_with_reference(job, result);
 }
 
+// images: what is in the files; empty: to be read.
 void SuiteRunner::show_foreign(const SuiteJob& job, const std::vector<std::string>& files,
-                               SuiteResult& result)
+                               std::vector<Image> images, SuiteResult& result)
 {
     try {
-        image_ = read_images(files);
+        if (images.empty())
+            for (const std::string& file : files) images.push_back(read_to_compare(file));
+        image_ = mean_of(std::move(images));
     } catch (const Error& error) {
         throw ProgramError(job.entry.foreign->at, error.what(), result.program.value_or(ProgramRun()));
     }
@@ -203,20 +206,24 @@ void SuiteRunner::show_foreign(const SuiteJob& job, const std::vector<std::strin
     result.state = JobState::rendered;
 }
 
+void SuiteRunner::require_reference(const SuiteEntry& entry) const
+{
+    std::error_code ignored;
+    if (entry.reference.empty() || fs::exists(entry.reference, ignored)) return;
+    throw SceneError({Diagnostic{
+        Severity::error, entry.reference_at,
+        entry.scene.empty() ? fmt::format("reference '{}' does not exist, and no scene says how it is made",
+                                          entry.reference.string())
+                            : fmt::format("reference '{}' does not exist; '{}' makes it",
+                                          entry.reference.string(), suite_command(" --update"))}});
+}
+
 void SuiteRunner::compare_with_reference(const SuiteJob& job, SuiteResult& result)
 {
     const SuiteEntry& entry = job.entry;
     if (entry.reference.empty()) return;
-    std::error_code ignored;
-    if (!fs::exists(entry.reference, ignored))
-        throw SceneError(
-            {Diagnostic{Severity::error, entry.reference_at,
-                        entry.scene.empty()
-                            ? fmt::format("reference '{}' does not exist, and no scene says how it is made",
-                                          entry.reference.string())
-                            : fmt::format("reference '{}' does not exist; '{}' makes it",
-                                          entry.reference.string(), suite_command(" --update"))}});
-    const Image& reference = reference_.emplace(read_image(entry.reference, true));
+    require_reference(entry);
+    const Image& reference = reference_.emplace(read_to_compare(entry.reference));
     result.how = job.compare;
     result.compare_command = "renderer compare " + compared_files(result) + options_text(result.how);
     note_stale(job, reference, result);

@@ -50,7 +50,8 @@ SuiteJob make_job(SuiteEntry entry, Diagnostics& diagnostics)
         set(job.reference, *find_setting<RenderSettings>(name), "reference-" + name, attribute, diagnostics);
     job.entry = std::move(entry);
     if (job.entry.foreign) {
-        check_foreign(job, diagnostics);
+        if (const std::string problem = foreign_problem(request_of(job)); !problem.empty())
+            diagnostics.error(job.entry.foreign->at, problem);
         job.compare.samples = job.image.samples.per_pixel;
     }
     return job;

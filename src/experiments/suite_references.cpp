@@ -7,6 +7,7 @@
 #include "base/shell_words.h"
 #include "base/text_file.h"
 #include "plumb/base/hash.h"
+#include "plumb/image/development.h"
 #include "rendering/origin.h"
 #include "rendering/provenance.h"
 #include "settings/options_text.h"
@@ -70,6 +71,11 @@ void SuiteRunner::make_reference(const SuiteJob& job, SuiteResult& result)
     std::vector<std::string> files = {reference.string()};
     if (reference.extension() == ".exr")
         files.push_back(fs::path(reference).replace_extension(".png").string());
+    if (const std::string how = development_text(job.reference.output.development);
+        is_low_dynamic_range(reference) && (!how.empty() || job.reference.output.denoise))
+        throw Error(fmt::format("'{}' cannot be made with '{}': a reference has the values of light; make an "
+                                ".exr file, or take these settings out of the suite",
+                                reference.string(), job.reference.output.denoise ? "denoise" : how));
     const RenderTask task = task_of(job.entry, job.reference);
     for (const Diagnostic& warning : task.scene.warnings) result.warnings.push_back(warning.text());
     make_directory(reference.parent_path());
@@ -90,7 +96,7 @@ void SuiteRunner::make_reference(const SuiteJob& job, SuiteResult& result)
                                     problem.message()));
         result.replaced = kept.string();
         try {
-            before = read_image(reference, true);
+            before = read_to_compare(reference);
         } catch (const Error& error) {
             result.warnings.push_back(fmt::format("the old reference: {}", error.what()));
         }
@@ -132,7 +138,7 @@ void SuiteRunner::compare_references(const SuiteJob& job, Image now, Image befor
 void SuiteRunner::check_reference(const SuiteJob& job, SuiteResult& result)
 {
     const std::string file = job.entry.reference.string();
-    Image before = read_image(file, true);
+    Image before = read_to_compare(file);
     const std::optional<RenderSettings> settings = settings_of_image(before, file);
     if (!settings) throw Error(fmt::format("the header of '{}' does not say how Plumb makes it", file));
     result.command = command_text(job.entry.scene, *settings);

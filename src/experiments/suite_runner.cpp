@@ -18,14 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Below the message: what a program printed last.
-std::string output_text(const std::string& output)
-{
-    std::string text;
-    for (const std::string& line : lines_of(output)) text += "\n    " + visible_text(line);
-    return text.empty() ? "\n    (it printed nothing)" : text;
-}
-
 } // namespace
 
 SuiteRunner::SuiteRunner(const fs::path& suite, const std::vector<SuiteJob>& jobs,
@@ -63,7 +55,7 @@ SuiteResult SuiteRunner::run(const SuiteJob& job)
     } catch (const ProgramError& error) {
         result.program = error.run();
         fail({Diagnostic{Severity::error, error.location(), error.what()}});
-        result.problem += output_text(error.run().output);
+        result.problem += output_text(error.run());
     } catch (const FileError& error) {
         fail({Diagnostic{Severity::error, error.location(), error.what()}});
     } catch (const std::bad_alloc&) {
@@ -106,8 +98,8 @@ SuiteResult SuiteRunner::result_of(const SuiteJob& job) const
     else if (!entry.foreign)
         result.command = command_text(entry.scene, job.image);
     else if (!entry.foreign->command.empty())
-        result.command =
-            words_text(command_of(job, 0, fs::absolute(stem_of(entry.title()) + ".exr"), options_.threads));
+        result.command = words_text(
+            command_of(request_of(job), 0, fs::absolute(stem_of(entry.title()) + ".exr"), options_.threads));
     return result;
 }
 
@@ -128,12 +120,13 @@ RenderTask SuiteRunner::task_of(const SuiteEntry& entry, const RenderSettings& s
 SuiteRunner::Made SuiteRunner::render_whole(const RenderTask& task, const std::vector<std::string>& files,
                                             SuiteResult& result)
 {
+    check_denoising(files, task.settings.output);
     RenderSession session(task, {.threads = options_.threads}, callbacks_);
     result.interrupted = session.run() == StopReason::interrupted;
     if (result.interrupted) throw Error("interrupted");
     Evidence evidence = session.evidence();
     Image image = session.image(evidence);
-    if (!files.empty()) write_images(files, image, task.settings.output.exposure, packing_of(evidence), {});
+    if (!files.empty()) write_images(files, image, task.settings.output, packing_of(evidence), {});
     return {std::move(image), std::move(evidence)};
 }
 

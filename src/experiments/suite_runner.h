@@ -40,7 +40,9 @@ private:
     void make_image(const SuiteJob& job, SuiteResult& result);
     void run_program(const SuiteJob& job, SuiteResult& result);
     void take_image(const SuiteJob& job, SuiteResult& result);
-    void show_foreign(const SuiteJob& job, const std::vector<std::string>& files, SuiteResult& result);
+    void show_foreign(const SuiteJob& job, const std::vector<std::string>& files, std::vector<Image> images,
+                      SuiteResult& result);
+    void require_reference(const SuiteEntry& entry) const; // throws SceneError if it does not exist
     std::string counted_title(const SuiteEntry& entry, const RenderTask& task);
     void compare_with_reference(const SuiteJob& job, SuiteResult& result);
     void write_maps(const Image& image, const Image& reference, const std::string& stem, SuiteResult& result);

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <new>
 #include <span>
 
@@ -102,7 +103,7 @@ std::vector<float> integer_values(std::size_t size, bool decode_srgb)
     return values;
 }
 
-// The floats that OpenImageIO made of integers, made exact and, but for alpha, decoded.
+// The floats that the module made of integers, made exact and, but for alpha, decoded.
 void convert_integers(const DecodedImage& image, bool decode_srgb)
 {
     const std::size_t size = image.integer_levels;
@@ -195,6 +196,20 @@ std::optional<ByteImage> read_byte_image(const std::filesystem::path& path)
 {
     return read_file(
         path, [](const ImageModule& module, const std::string& name) { return module.read_bytes(name); });
+}
+
+bool is_jpeg(const std::filesystem::path& path)
+{
+    constexpr std::string_view magic = "\xff\xd8\xff";
+    if (!problem_of_file(path).empty()) return false;
+    std::ifstream file(path, std::ios::binary);
+    char start[magic.size()] = {};
+    return file.read(start, sizeof start) && std::string_view(start, sizeof start) == magic;
+}
+
+std::string jpeg_decoder()
+{
+    return image_module().jpeg_decoder();
 }
 
 std::array<float, 256> byte_values(bool decode_srgb)

@@ -8,10 +8,12 @@
 #include "image/image_module.h"
 #include "image/image_text.h"
 #include "plumb/base/error.h"
+#include "plumb/image/development.h"
 #include "plumb/image/image.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <new>
@@ -30,13 +32,14 @@ struct Format {
     bool keeps_all; // channels beyond red, green and blue; and that an image is a part of a larger one
     std::string_view compression;
     std::string_view fast_compression = compression;
+    bool not_in_all_modules = false;
 };
 
 constexpr Format formats[] = {
     {".exr", Encoding::linear_float, true, "zip", "rle"},
     {".hdr", Encoding::linear_float, false, ""},
-    {".tif", Encoding::linear_float, false, "zip"},
-    {".tiff", Encoding::linear_float, false, "zip"},
+    {".tif", Encoding::linear_float, false, "zip", "zip", true},
+    {".tiff", Encoding::linear_float, false, "zip", "zip", true},
     {".png", Encoding::srgb_8bit, false, ""},
     {".jpg", Encoding::srgb_8bit, false, "jpeg:95"},
     {".jpeg", Encoding::srgb_8bit, false, "jpeg:95"},
@@ -59,6 +62,17 @@ const Format& format_of(const std::filesystem::path& path)
     fail(path, fmt::format("unknown extension '{}'; known are {}", path.extension().string(), known));
 }
 
+void check_module_writes(const std::filesystem::path& path, const Format& format)
+{
+    if (!format.not_in_all_modules) return; // else the module would be loaded where nothing is written yet
+    const ImageModule& module = image_module();
+    try {
+        module.check_written_format(path.string());
+    } catch (const Error& error) {
+        fail(path, error.what());
+    }
+}
+
 // Layers go into formats that hold any channel. They come last.
 int channels_written(const Image& image, const Format& format)
 {
@@ -67,19 +81,26 @@ int channels_written(const Image& image, const Format& format)
     return format.keeps_all ? image.channel_count() : static_cast<int>(first_of_layers - names.begin());
 }
 
-std::vector<std::uint8_t> encode_srgb(const Image& image, int channels, float exposure)
+// Grey and colours are developed; what else there is, alpha, is only encoded.
+std::vector<std::uint8_t> encode_for_screens(const Image& image, int channels, const Development& development)
 {
     const PixelRect& data = image.data_window();
     const auto written = static_cast<std::size_t>(channels);
     const auto given = static_cast<std::size_t>(image.channel_count());
     const std::size_t pixels = static_cast<std::size_t>(data.width) * static_cast<std::size_t>(data.height);
-    const float scale = exposure < 0.f ? 1.f / pow(2.f, -exposure) : pow(2.f, exposure);
     const float* const linear = image.pixel(data.x, data.y);
+    const std::size_t colors = written >= 3 ? 3 : 1;
     std::vector<std::uint8_t> bytes(pixels * written);
-    for (std::size_t i = 0; i < bytes.size(); ++i) {
-        const float x = linear[i / written * given + i % written] * scale;
-        const float clamped = x > 0.f ? std::min(x, 1.f) : 0.f; // not a number: 0
-        bytes[i] = static_cast<std::uint8_t>(srgb_from_linear(clamped) * 255.f + 0.5f);
+    const Developer develop(development);
+    const Developer only_encode({});
+    const auto byte = [](float value) { return static_cast<std::uint8_t>(value * 255.f + 0.5f); };
+    for (std::size_t i = 0; i < pixels; ++i) {
+        const float* const in = linear + i * given;
+        std::uint8_t* const out = bytes.data() + i * written;
+        const Color light = colors == 3 ? Color(in[0], in[1], in[2]) : Color(in[0]);
+        const Color shown = develop(light);
+        for (std::size_t c = 0; c < written; ++c)
+            out[c] = byte(c < colors ? shown[static_cast<int>(c)] : only_encode(Color(in[c])).g);
     }
     return bytes;
 }
@@ -97,9 +118,19 @@ Metadata with_color_space(const Image& image, const Format& format)
     return metadata;
 }
 
+// Whoever made the colours may have said what they are.
+std::string display_text_of(const Metadata& header, const Development& development)
+{
+    if (std::string given = display_text(header); !given.empty()) return given;
+    const bool is_denoised = std::any_of(header.begin(), header.end(),
+                                         [](const auto& entry) { return entry.first == denoised_entry; });
+    const std::string text = development_text(development);
+    return (is_denoised ? "denoised" : "") + std::string(is_denoised && !text.empty() ? ", " : "") + text;
+}
+
 // What the file will hold.
 std::vector<unsigned char> encode(const std::string& name, const Image& image, const Format& format,
-                                  float exposure, Packing packing)
+                                  const Development& development, Packing packing)
 {
     const bool is_float = format.encoding == Encoding::linear_float;
     const int channels = channels_written(image, format);
@@ -120,7 +151,10 @@ std::vector<unsigned char> encode(const std::string& name, const Image& image, c
         file.floats_per_pixel = image.channel_count();
         return image_module().encode(file);
     }
-    const std::vector<std::uint8_t> bytes = encode_srgb(image, channels, exposure);
+    for (Metadata::value_type& entry :
+         display_header(format.extension, display_text_of(image.metadata, development)))
+        file.format.push_back(std::move(entry));
+    const std::vector<std::uint8_t> bytes = encode_for_screens(image, channels, development);
     file.bytes = bytes.data();
     return image_module().encode(file);
 }
@@ -132,7 +166,7 @@ void check_image_path(const std::filesystem::path& path)
     if (!path.has_filename()) fail(path, "no file name");
     std::error_code error;
     if (std::filesystem::is_directory(path, error)) fail(path, "a directory of that name exists");
-    format_of(path);
+    check_module_writes(path, format_of(path));
     const std::filesystem::path end = end_of_links(path);
     const std::filesystem::path directory = end.has_parent_path() ? end.parent_path() : ".";
     if (!std::filesystem::exists(directory, error))
@@ -144,13 +178,22 @@ void check_image_path(const std::filesystem::path& path)
     const TemporaryFile probe(path); // created, and removed
 }
 
-void write_image(const std::filesystem::path& path, const Image& image, float exposure, Packing packing)
+bool is_for_screens(const std::filesystem::path& path)
+{
+    const std::string extension = lower_case(path.extension().string());
+    return std::any_of(std::begin(formats), std::end(formats), [&](const Format& format) {
+        return format.extension == extension && format.encoding == Encoding::srgb_8bit;
+    });
+}
+
+void write_image(const std::filesystem::path& path, const Image& image, const Development& development,
+                 Packing packing)
 {
     check_image_path(path);
     TemporaryFile file(path);
     std::vector<unsigned char> bytes;
     try {
-        bytes = encode(path.string(), image, format_of(path), exposure, packing);
+        bytes = encode(path.string(), image, format_of(path), development, packing);
     } catch (const std::bad_alloc&) {
         fail(path, "not enough memory");
     } catch (const std::exception& error) { // ours, and whatever OpenImageIO lets through

@@ -106,7 +106,10 @@ Color ConfiguredPath::direct(Tracer& tracer, Sampler& sampler, const Vertex& ver
     if (!vertex.has_smooth_lobes()) return Color(0.f);
     const Color unreachable = light_from_all_delta_emitters(tracer, sampler, vertex);
     const auto sampled = scatter_by_warp(direct_warp_, sampler, vertex);
-    return unreachable + light_along(tracer, vertex, sampled);
+    const std::size_t noted = tracer.noted_light();
+    const Color found = light_along(tracer, vertex, sampled);
+    tracer.change_noted_light(noted, [&](const Color& sum) { return unreachable + sum; });
+    return unreachable + found;
 }
 
 std::optional<BsdfSample> ConfiguredPath::scatter(Sampler& sampler, const Vertex& vertex) const

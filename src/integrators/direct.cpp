@@ -35,13 +35,22 @@ public:
     }
 
     std::string bias() const override { return bias_of_depth(max_depth()); }
+    bool notes_light() const override { return true; }
 
     Color direct(Tracer& tracer, Sampler& sampler, const Vertex& vertex) const
     {
         if (!vertex.has_smooth_lobes()) return Color(0.f);
         Color sum(0.f);
-        for (int i = 0; i < technique_.samples(); ++i) sum += technique_.estimate(tracer, sampler, vertex);
-        return sum / static_cast<float>(technique_.samples());
+        const std::size_t all = tracer.noted_light();
+        for (int i = 0; i < technique_.samples(); ++i) {
+            const std::size_t noted = tracer.noted_light();
+            const Color found = technique_.estimate(tracer, sampler, vertex);
+            tracer.change_noted_light(noted, [&](const Color& one) { return sum + one; });
+            sum += found;
+        }
+        const auto samples = static_cast<float>(technique_.samples());
+        tracer.change_noted_light(all, [&](const Color& part) { return part / samples; });
+        return sum / samples;
     }
 
 private:

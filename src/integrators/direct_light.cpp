@@ -60,7 +60,9 @@ Color light_from_one_emitter(Tracer& tracer, Sampler& sampler, const Vertex& ver
     if (!light) return Color(0.f);
     const BsdfValue value = vertex.evaluate(light->wi);
     const float weight = light->is_delta ? 1.f : mis_weight(heuristic, light->pdf, value.pdf);
-    return light_through(tracer, vertex, *light, value.f_cos, weight);
+    const Color found = light_through(tracer, vertex, *light, value.f_cos, weight);
+    tracer.note_light(found, FoundBy::emitter_sample, light->emitter_index);
+    return found;
 }
 
 Color light_from_one_delta_emitter(Tracer& tracer, Sampler& sampler, const Vertex& vertex)
@@ -70,15 +72,20 @@ Color light_from_one_delta_emitter(Tracer& tracer, Sampler& sampler, const Verte
     const Vec2f u = sampler.next_2d();
     const auto light = tracer.scene().sample_delta_emitter(vertex.receiver(), u_choice, u);
     if (!light) return Color(0.f);
-    return light_through(tracer, vertex, *light, vertex.evaluate(light->wi).f_cos);
+    const Color found = light_through(tracer, vertex, *light, vertex.evaluate(light->wi).f_cos);
+    tracer.note_light(found, FoundBy::emitter_sample, light->emitter_index);
+    return found;
 }
 
 Color light_from_all_emitters(Tracer& tracer, Sampler& sampler, const Vertex& vertex, Measure measure)
 {
     Color sum(0.f);
     if (!vertex.has_smooth_lobes()) return sum;
-    for (const Emitter* emitter : tracer.scene().emitters())
+    std::uint32_t index = 0;
+    for (const Emitter* emitter : tracer.scene().emitters()) {
         sum += light_from(tracer, sampler, vertex, *emitter, measure);
+        tracer.note_light(sum, FoundBy::emitter_sample, index++);
+    }
     return sum;
 }
 
@@ -86,8 +93,14 @@ Color light_from_all_delta_emitters(Tracer& tracer, Sampler& sampler, const Vert
 {
     Color sum(0.f);
     if (!vertex.has_smooth_lobes()) return sum;
-    for (const Emitter* emitter : tracer.scene().emitters())
-        if (emitter->is_delta()) sum += light_from(tracer, sampler, vertex, *emitter, Measure::best);
+    std::uint32_t index = 0;
+    for (const Emitter* emitter : tracer.scene().emitters()) {
+        if (emitter->is_delta()) {
+            sum += light_from(tracer, sampler, vertex, *emitter, Measure::best);
+            tracer.note_light(sum, FoundBy::emitter_sample, index);
+        }
+        ++index;
+    }
     return sum;
 }
 
@@ -95,8 +108,11 @@ Color light_along(Tracer& tracer, const Vertex& vertex, const std::optional<Bsdf
 {
     if (!sampled || sampled->is_delta() || sampled->weight.is_black()) return Color(0.f);
     Color radiance(0.f);
-    look_along(tracer, vertex, vertex.to_world(*sampled),
-               [&](const SurfacePoint*, const Color& emission) { radiance += emission; });
+    look_along(tracer, vertex, vertex.to_world(*sampled), [&](const SurfacePoint* at, const Color& emission) {
+        radiance += emission;
+        tracer.note_light(sampled->weight * radiance, FoundBy::direction,
+                          at ? at->emitter_index : environment_index);
+    });
     return sampled->weight * radiance;
 }
 

@@ -51,13 +51,18 @@ public:
     }
 
     std::string bias() const override { return bias_of_depth(max_depth()); }
+    bool notes_light() const override { return true; }
 
     Color direct(Tracer& tracer, Sampler& sampler, const Vertex& vertex) const
     {
         if (!vertex.has_smooth_lobes()) return Color(0.f);
         Color sum = light_from_all_delta_emitters(tracer, sampler, vertex);
-        sum += part(tracer, sampler, vertex, first_, second_);
-        sum += part(tracer, sampler, vertex, second_, first_);
+        for (const auto& [mine, other] : {std::pair(&first_, &second_), std::pair(&second_, &first_)}) {
+            const std::size_t noted = tracer.noted_light();
+            const Color found = part(tracer, sampler, vertex, *mine, *other);
+            tracer.change_noted_light(noted, [&](const Color& part) { return sum + part; });
+            sum += found;
+        }
         return sum;
     }
 
@@ -73,6 +78,7 @@ private:
                 const float share = mis_weight(heuristic_, samples * found.pdf,
                                                static_cast<float>(other.samples()) * found.other_pdf);
                 sum += found.light * (share / (samples * found.pdf));
+                tracer.note_light(sum, found.by, found.emitter);
             });
         }
         return sum;

@@ -66,7 +66,10 @@ Color DirectTechnique::estimate(Tracer& tracer, Sampler& sampler, const Vertex& 
     if (samples_emitters()) return light_from_all_emitters(tracer, sampler, vertex, measure());
     const Color unreachable = light_from_all_delta_emitters(tracer, sampler, vertex);
     const auto sampled = direction(sampler, vertex);
-    return unreachable + light_along(tracer, vertex, sampled);
+    const std::size_t noted = tracer.noted_light();
+    const Color found = light_along(tracer, vertex, sampled);
+    tracer.change_noted_light(noted, [&](const Color& sum) { return unreachable + sum; });
+    return unreachable + found;
 }
 
 float DirectTechnique::density(const Scene& scene, const Vertex& vertex, const Vec3f& wo_world,
@@ -90,7 +93,8 @@ void DirectTechnique::find(Tracer& tracer, Sampler& sampler, const Vertex& verte
     look_along(tracer, vertex, wo_world, [&](const SurfacePoint* hit, const Color& radiance) {
         if (radiance.is_black()) return;
         take({value.f_cos * radiance, sampled->pdf,
-              other.density(tracer.scene(), vertex, wo_world, value, hit)});
+              other.density(tracer.scene(), vertex, wo_world, value, hit), FoundBy::direction,
+              hit ? hit->emitter_index : environment_index});
     });
 }
 
@@ -109,7 +113,8 @@ void DirectTechnique::find_by_emitter(Tracer& tracer, Sampler& sampler, const Ve
     const SurfacePoint point = surface_of(*light);
     const bool is_surface = light->distance != infinity;
     take({contribution * visible, light->pdf,
-          other.density(tracer.scene(), vertex, light->wi, value, is_surface ? &point : nullptr)});
+          other.density(tracer.scene(), vertex, light->wi, value, is_surface ? &point : nullptr),
+          FoundBy::emitter_sample, light->emitter_index});
 }
 
 } // namespace plumb

@@ -31,6 +31,8 @@ public:
         Color light;
         float pdf = 0.f;
         float other_pdf = 0.f;
+        FoundBy by = FoundBy::direction;
+        std::uint32_t emitter = 0; // as of LightNote
     };
     // Several only where light passes straight through an emitter.
     using Take = std::function<void(const Found&)>;

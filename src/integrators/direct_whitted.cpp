@@ -22,6 +22,7 @@ public:
     }
 
     std::string bias() const override { return bias_of_depth(max_depth()); }
+    bool notes_light() const override { return true; }
 
     Color direct(Tracer& tracer, Sampler& sampler, const Vertex& vertex) const
     {

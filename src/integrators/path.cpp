@@ -76,6 +76,8 @@ public:
         return std::visit([](const auto& estimator) { return estimator.bias(); }, estimator_);
     }
 
+    bool notes_light() const override { return true; }
+
 private:
     using Estimator = std::variant<PathEstimator, ConfiguredPath>;
 

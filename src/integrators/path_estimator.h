@@ -75,6 +75,7 @@ public:
     }
 
     std::string bias() const override { return estimator_.bias(); }
+    bool notes_light() const override { return true; }
 
 private:
     PathEstimator estimator_;

@@ -45,6 +45,21 @@ void note_scatter(Tracer& tracer, const PathState& path, const BsdfSample& next)
                            text(path.throughput)));
 }
 
+void note_emission(Tracer& tracer, const PathState& path, int depth, const Color& sum,
+                   const std::optional<SurfacePoint>& hit)
+{
+    if (hit && !hit->emitter) return;
+    const FoundBy by = path.is_chosen ? FoundBy::direction : FoundBy::view;
+    tracer.light_notes()->add({sum, by, hit ? hit->emitter_index : environment_index, depth});
+}
+
+void note_direct(Tracer& tracer, const PathState& path, int depth, const Color& before, std::size_t first)
+{
+    tracer.light_notes()->change_sums(first,
+                                      [&](const Color& direct) { return before + path.throughput * direct; });
+    tracer.light_notes()->set_depth(first, depth);
+}
+
 void note_roulette(Tracer& tracer, float survival, bool survived)
 {
     if (FirstSurfaces* const first = tracer.first_surfaces(); first && survived)

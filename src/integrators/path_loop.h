@@ -31,6 +31,7 @@ struct PathState {
     float pdf = 0.f;        // of the last direction, unless delta
     bool delta = true;   // nothing but following the path finds what it sees: camera rays and delta bounces
     bool is_view = true; // the camera still looks along it, perhaps through panes that do not bend it
+    bool is_chosen = false; // some direction of it was chosen among many
 
     // Light that lies behind a pass is still looked for from the last vertex.
     void pass(const BsdfSample& next) { throughput *= next.weight; }
@@ -43,6 +44,7 @@ struct PathState {
         pdf = next.pdf;
         delta = next.is_delta();
         is_view = is_view && next.is_delta() && next.is_transmission() && vertex.goes_straight(next);
+        is_chosen = is_chosen || !next.is_delta();
     }
 };
 
@@ -68,6 +70,12 @@ inline int passes_left(int max_depth, int bounces)
 // For the first surfaces, and for `renderer replay`.
 void note_scatter(Tracer& tracer, const PathState& path, const BsdfSample& next);
 void note_roulette(Tracer& tracer, float survival, bool survived);
+
+// For layers of parts of the light: what emission makes of the sum, and what direct light does, whose notes are those from
+// number `first` on.
+void note_emission(Tracer& tracer, const PathState& path, int depth, const Color& sum,
+                   const std::optional<SurfacePoint>& hit);
+void note_direct(Tracer& tracer, const PathState& path, int depth, const Color& before, std::size_t first);
 
 // What the path's last ray sees, if the technique counts it.
 template <class Technique>
@@ -122,6 +130,8 @@ Color trace_path(const Technique& technique, Tracer& tracer, Sampler& sampler, R
         const auto hit = sees_no_emitters(technique, path) ? tracer.intersect_behind_emitters(ray, kind)
                                                            : tracer.intersect(ray, kind);
         result += emitted(technique, tracer, path, ray, hit);
+        if (tracer.light_notes()) [[unlikely]]
+            note_emission(tracer, path, bounces, result, hit);
         if (!hit) return end("the path has left the scene"), result;
         if (hit->emitter && tracer.scene().emitters_absorb())
             return end("an emitter absorbs the path"), result;
@@ -136,7 +146,13 @@ Color trace_path(const Technique& technique, Tracer& tracer, Sampler& sampler, R
         const std::optional<BsdfSample> next = technique.scatter(sampler, vertex);
         if (may_pass && technique.counts_passes())
             tracer.limit_passes(passes_left(technique.max_depth(), bounces));
-        if (!passes_only) result += scattered(technique, tracer, sampler, path, vertex);
+        if (!passes_only) {
+            const std::size_t noted = tracer.noted_light();
+            const Color before = result;
+            result += scattered(technique, tracer, sampler, path, vertex);
+            if (tracer.light_notes()) [[unlikely]]
+                note_direct(tracer, path, bounces + 1, before, noted);
+        }
         if (!next) return end("the surface absorbs the path"), result;
         if (may_pass && next->is_pass()) {
             path.pass(*next);

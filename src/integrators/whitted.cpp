@@ -25,6 +25,7 @@ public:
     }
 
     std::string bias() const override { return "light between surfaces that are not smooth is omitted"; }
+    bool notes_light() const override { return true; }
 
     Color direct(Tracer& tracer, Sampler& sampler, const Vertex& vertex) const
     {

@@ -186,15 +186,15 @@ AovMeter::AovMeter(std::span<const std::string> names, const Scene& scene, const
     if (!wanted_.empty()) view_.emplace(scene, camera);
 }
 
-LayerSample AovMeter::measure(const FirstSurfaces& first, const Color& radiance, Values& room) const
+LayerSample AovMeter::measure(const SampleFacts& sample, Values& room) const
 {
     room.values.clear();
     room.ids.clear();
     std::uint64_t hits = 0;
     std::uint64_t bit = 1;
     for (const auto& [row, behind] : wanted_) {
-        const std::optional<SeenSurface>& seen = behind ? first.not_delta : first.surface;
-        if (seen || row->of_radiance) hits |= bit;
+        const std::optional<SeenSurface>& seen = behind ? sample.first.not_delta : sample.first.surface;
+        if (seen || row->of_sample) hits |= bit;
         bit <<= 1;
         if (row->identify) {
             room.ids.push_back(seen ? row->identify(*seen, *view_) : 0);
@@ -202,8 +202,8 @@ LayerSample AovMeter::measure(const FirstSurfaces& first, const Color& radiance,
         }
         const std::size_t at = room.values.size();
         room.values.resize(at + row->layer.components.size(), 0.f);
-        if (row->of_radiance)
-            row->of_radiance(radiance, &room.values[at]);
+        if (row->of_sample)
+            row->of_sample(sample, &room.values[at]);
         else if (seen)
             row->measure(*seen, *view_, &room.values[at]);
     }

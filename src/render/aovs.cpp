@@ -66,9 +66,9 @@ AovRow mean_row(const char* name, Names components, std::string_view unit, std::
     return {{name, std::move(components), LayerKind::mean}, unit, manual, false, measure, nullptr, nullptr};
 }
 
-AovRow moment_row(const char* name, std::string_view manual, void (*of_radiance)(const Color&, float*))
+AovRow sample_row(Layer layer, std::string_view manual, void (*of_sample)(const SampleFacts&, float*))
 {
-    return {{name, xyz, LayerKind::mean}, "", manual, false, nullptr, nullptr, nullptr, of_radiance};
+    return {std::move(layer), "", manual, false, nullptr, nullptr, nullptr, of_sample};
 }
 
 const std::vector<AovRow>& table()
@@ -176,13 +176,16 @@ const std::vector<AovRow>& table()
                  [](const Seen& seen, const View&, float* out) {
                      out[0] = static_cast<float>(seen.at.primitive);
                  }),
-        moment_row("xyz", "the light of the sample in CIE XYZ",
-                   [](const Color& radiance, float* out) { put(out, xyz_of(radiance)); }),
-        moment_row("xyz_squared", "the square of each component of xyz",
-                   [](const Color& radiance, float* out) {
-                       const Vec3f v = xyz_of(radiance);
+        sample_row({"xyz", xyz, LayerKind::mean}, "the light of the sample in CIE XYZ",
+                   [](const SampleFacts& sample, float* out) { put(out, xyz_of(sample.radiance)); }),
+        sample_row({"xyz_squared", xyz, LayerKind::mean}, "the square of each component of xyz",
+                   [](const SampleFacts& sample, float* out) {
+                       const Vec3f v = xyz_of(sample.radiance);
                        put(out, v * v);
                    }),
+        sample_row({"rays", {"N"}, LayerKind::mean_of_hits},
+                   "number of rays that a sample takes: camera, bounce and shadow rays",
+                   [](const SampleFacts& sample, float* out) { out[0] = static_cast<float>(sample.rays); }),
     };
     return rows;
 }

@@ -13,7 +13,7 @@
 namespace plumb {
 namespace {
 
-constexpr std::string_view kinds[] = {"mean", "hits", "id", "variance", "variance_of_hits"};
+constexpr std::string_view kinds[] = {"mean", "hits", "id", "variance", "variance_of_hits", "share"};
 constexpr std::size_t max_components = 4;
 
 bool is_name(std::string_view text)
@@ -58,6 +58,11 @@ bool is_layer_name(std::string_view text)
     std::replace_if(
         plain.begin(), plain.end(), [](char c) { return c == '.' || c == '-'; }, '_');
     return is_name(plain);
+}
+
+std::string_view family_of(const Layer& share)
+{
+    return std::string_view(share.name).substr(0, share.name.rfind('.'));
 }
 
 std::string to_text(const ChannelSet& layers)

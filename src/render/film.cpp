@@ -6,6 +6,7 @@
 #include "plumb/base/error.h"
 #include "render/fixed_sum.h"
 #include "render/layer_sums.h"
+#include "render/share_rounding.h"
 
 #include <array>
 #include <mutex>
@@ -150,15 +151,38 @@ Color Film::variance_of_mean(Vec2i pixel) const
             static_cast<float>(variance_of_mean(at, 2))};
 }
 
+std::vector<std::string> Film::channel_names() const
+{
+    std::vector<std::string> names = {"R", "G", "B"};
+    for (const Layer& layer : layers())
+        for (std::size_t c = 0; c < layer.components.size(); ++c) names.push_back(layer.channel(c));
+    return names;
+}
+
+std::vector<float> Film::develop(const PixelRect& part) const
+{
+    const std::size_t channels = channel_names().size();
+    std::vector<float> values(channels * static_cast<std::size_t>(part.width) *
+                              static_cast<std::size_t>(part.height));
+    float* out = values.data();
+    for (int y = part.y; y < part.y + part.height; ++y) {
+        for (int x = part.x; x < part.x + part.width; ++x, out += channels) {
+            const std::size_t at = index({x, y});
+            for (int c = 0; c < 3; ++c) out[c] = static_cast<float>(mean(at, c));
+            if (layers_) layers_->develop(at, pixels_[at].count, out + 3);
+        }
+    }
+    return values;
+}
+
 Image Film::develop(Channels channels) const
 {
     const bool evidence = channels == Channels::color_and_evidence;
-    std::vector<std::string> names = {"R", "G", "B"};
-    if (evidence) names.insert(names.end(), {"variance.R", "variance.G", "variance.B", "contributing"});
-    const std::size_t beauty = names.size();
-    for (const Layer& layer : layers())
-        for (std::size_t c = 0; c < layer.components.size(); ++c) names.push_back(layer.channel(c));
+    std::vector<std::string> names = channel_names();
+    const std::size_t beauty = evidence ? 7 : 3;
+    if (evidence) names.insert(names.begin() + 3, {"variance.R", "variance.G", "variance.B", "contributing"});
     Image image(window_, full_width_, full_height_, std::move(names));
+    const std::vector<ShareFamily> families = share_families(layers());
     parallel_for(static_cast<std::size_t>(window_.height), 0, [&](std::size_t row) {
         const int y = window_.y + static_cast<int>(row);
         for (int x = window_.x; x < window_.x + window_.width; ++x) {
@@ -166,6 +190,7 @@ Image Film::develop(Channels channels) const
             float* out = image.pixel(x, y);
             for (int c = 0; c < 3; ++c) out[c] = static_cast<float>(mean(at, c));
             if (layers_) layers_->develop(at, pixels_[at].count, out + beauty);
+            for (const ShareFamily& family : families) make_shares_add_up(family, out + beauty, out);
             if (!evidence) continue;
             for (int c = 0; c < 3; ++c) out[3 + c] = static_cast<float>(variance_of_mean(at, c));
             out[6] = static_cast<float>(pixels_[at].contributing);

@@ -19,6 +19,7 @@ enum VarianceSum : std::size_t { values, squares, large_squares, variance_sums }
 constexpr const char* sum_names[variance_sums] = {"layer", "squares", "largeSquares"};
 // The largest that one sample adds to each, in units of 2^96.
 constexpr double high_word_per_sample[variance_sums] = {0x1p5, 0x1p4, 0x1p-2};
+constexpr double high_word_of_share = 0x1p6; // a difference of two values
 
 std::size_t sums_per_component(LayerKind kind)
 {
@@ -86,6 +87,11 @@ LayerSums::LayerSums(ChannelSet layers, std::size_t pixels) : layers_(std::move(
     sums_.resize(pixels * sizes.sums);
     hits_.resize(pixels * sizes.hits);
     first_ids_.resize(pixels * sizes.ids);
+    std::size_t sum = 0;
+    for (const Layer& layer : layers_) {
+        first_sums_.push_back(sum);
+        sum += layer.components.size() * sums_per_component(layer.kind);
+    }
 }
 
 std::size_t LayerSums::bytes_per_pixel(const ChannelSet& layers)
@@ -102,8 +108,13 @@ void LayerSums::add(std::size_t pixel, float weight, const LayerSample& sample, 
     std::uint64_t* id = first_ids_.data() + pixel * ids_per_pixel_;
     const float* value = sample.values.data();
     const std::uint32_t* sample_id = sample.ids.data();
+    add_shares(sum, weight, sample);
     for (std::size_t i = 0; i < layers_.size(); ++i) {
         const Layer& layer = layers_[i];
+        if (layer.kind == LayerKind::share) {
+            sum += layer.components.size();
+            continue;
+        }
         const bool hit = (sample.hits >> i & 1) != 0;
         if (layer.kind == LayerKind::id) {
             *id = first_of(*id, (index + 1) << 32 | (hit ? *sample_id : 0));
@@ -122,6 +133,21 @@ void LayerSums::add(std::size_t pixel, float weight, const LayerSample& sample, 
         sum += size * sums;
         value += size;
         if (of_hits) ++hits;
+    }
+}
+
+void LayerSums::add_shares(FixedSum* sums, float weight, const LayerSample& sample) const
+{
+    FixedSum before[3] = {0, 0, 0};
+    for (const LightShare& share : sample.shares) {
+        const Color value = share.sum * weight; // as Film::add() computes it of the radiance
+        if (!(max_component(value) < film_max_value && min_component(value) > -film_max_value)) continue;
+        for (int c = 0; c < 3; ++c) {
+            const FixedSum now = to_fixed(static_cast<double>(value[c]) * fixed_units_per_one);
+            for (std::size_t family = 0; family < sample.families; ++family)
+                sums[first_sums_[share.layers[family]] + static_cast<std::size_t>(c)] += now - before[c];
+            before[c] = now;
+        }
     }
 }
 
@@ -197,7 +223,9 @@ bool LayerSums::is_possible(std::span<const std::uint32_t> words, std::uint64_t 
         for (std::size_t c = 0; c < layer.components.size(); ++c)
             for (std::size_t sum = 0; sum < sums_per_component(layer.kind); ++sum, in += 4) {
                 const double high = static_cast<std::int32_t>(in[3]); // the highest word
-                if (std::abs(high) > static_cast<double>(samples) * high_word_per_sample[sum] + 1.0 ||
+                const double most =
+                    layer.kind == LayerKind::share ? high_word_of_share : high_word_per_sample[sum];
+                if (std::abs(high) > static_cast<double>(samples) * most + 1.0 ||
                     (sum != values && high < 0.0))
                     return false;
             }

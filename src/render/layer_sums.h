@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The sums of a film's layers, exact as those of beauty: 16 bytes a component of a mean, 48 of a variance, 4 for the number of
-// hits where it matters, 8 an id.
+// The sums of a film's layers, exact as those of beauty: 16 bytes a component of a mean or a share, 48 of a variance, 4 for the
+// number of hits where it matters, 8 an id.
+//
+// Shares. A sample is rounded to the film's units after all contributions are added up as floats. So a contribution counts as
+// what it makes of that rounded number: the differences add up to the sample's number, and the shares' sums to beauty's.
 //
 // A variance has three sums a component: of the values, of the squares of values below 2^18, and of larger squares in units of
 // 2^-20, below 2^74 each.
@@ -40,7 +43,10 @@ public:
     bool is_possible(std::span<const std::uint32_t> words, std::uint64_t samples) const;
 
 private:
+    void add_shares(FixedSum* sums, float weight, const LayerSample& sample) const;
+
     ChannelSet layers_;
+    std::vector<std::size_t> first_sums_; // of each layer, in a pixel's
     std::size_t sums_per_pixel_ = 0;
     std::size_t hits_per_pixel_ = 0;
     std::size_t ids_per_pixel_ = 0;

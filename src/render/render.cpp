@@ -5,9 +5,9 @@
 #include "base/float_mode.h"
 #include "base/parallel.h"
 #include "plumb/base/error.h"
-#include "plumb/render/aovs.h"
 #include "plumb/scene/tracer.h"
 #include "render/film_edge.h"
+#include "render/sample_layers.h"
 #include "render/tiles.h"
 
 #include <atomic>
@@ -30,6 +30,7 @@ constexpr std::uint64_t samples_per_pass = 16;
 
 struct SampleTaken {
     Color radiance;
+    Color scale; // of what the integrator found
     Vec2f raster;
     float weight;
 };
@@ -47,19 +48,18 @@ SampleTaken take_sample(const RenderJob& job, const FilmEdge& edge, Tracer& trac
     const CameraRay camera_ray = job.camera->sample_ray(raster, u_lens);
     Color radiance = job.integrator->radiance(tracer, sampler, camera_ray.ray) * camera_ray.weight;
     if (tracer.take_failure()) radiance = Color(std::numeric_limits<float>::quiet_NaN());
-    return {radiance, raster, place.weight};
+    return {radiance, camera_ray.weight, raster, place.weight};
 }
 
 // What one thread needs and gathers.
 struct Worker {
-    Worker(const RenderJob& job, std::uint64_t total, bool has_layers)
-        : tracer(*job.scene, nullptr, has_layers ? &first : nullptr), sampler(job.sampler->clone(total))
+    Worker(const RenderJob& job, std::uint64_t total, const SampleLayers& wanted)
+        : layers(wanted), tracer(*job.scene, layers.notes()), sampler(job.sampler->clone(total))
     {}
     Worker(const Worker&) = delete; // the tracer points to it
     Worker& operator=(const Worker&) = delete;
 
-    FirstSurfaces first; // of the sample being taken, if there are layers
-    AovMeter::Values values;
+    SampleLayers::Meter layers; // of the sample being taken
     Tracer tracer;
     std::unique_ptr<Sampler> sampler;
     LeftOut left_out;
@@ -119,7 +119,7 @@ void check_total(const RenderJob& job, std::uint64_t end, std::uint64_t total)
 RenderState nothing_taken(const RenderJob& job, const RenderOptions& options)
 {
     const Vec2i size = job.camera->resolution();
-    return {Film(render_window(job, options), size.x, size.y, layers_of(options.aovs)), {}, {}, {}};
+    return {Film(render_window(job, options), size.x, size.y, render_layers(job, options)), {}, {}, {}};
 }
 
 } // namespace
@@ -183,12 +183,13 @@ Rendering::Rendering(const RenderJob& job, const RenderOptions& options)
 Rendering::Rendering(const RenderJob& job, const RenderOptions& options, RenderState state)
     : job_(job), options_(options), state_(std::move(state))
 {
-    if (const ChannelSet wanted = layers_of(options.aovs); state_.film.layers() != wanted)
+    if (const ChannelSet wanted = render_layers(job, options); state_.film.layers() != wanted)
         throw Error(fmt::format("the samples so far have the layers {}, not {}",
                                 layer_names(state_.film.layers()), layer_names(wanted)));
 }
 
-bool Rendering::take(const SampleSet& wanted, const ProgressReport& progress, const Pause& pause)
+bool Rendering::take(const SampleSet& wanted, const ProgressReport& progress, const Pause& pause,
+                     const TileReport& tile_report)
 {
     const SampleSet missing = wanted - state_.taken;
     std::uint64_t first = max_samples_per_pixel;
@@ -200,9 +201,8 @@ bool Rendering::take(const SampleSet& wanted, const ProgressReport& progress, co
     const std::uint64_t total = render_samples(job_, options_);
     check_total(job_, end, total);
     Reporter reporter(progress, (wanted & state_.taken).count(), wanted.count());
-    oneapi::tbb::enumerable_thread_specific<Worker> workers(
-        [&] { return Worker(job_, total, !state_.film.layers().empty()); });
-    const AovMeter meter(options_.aovs, *job_.scene, *job_.camera);
+    const SampleLayers layers(job_, options_);
+    oneapi::tbb::enumerable_thread_specific<Worker> workers([&] { return Worker(job_, total, layers); });
     const FilmEdge edge(*job_.filter, *job_.camera);
     std::atomic<bool> paused = false;
 
@@ -221,21 +221,22 @@ bool Rendering::take(const SampleSet& wanted, const ProgressReport& progress, co
             }
             for (int x = tile.x; x < tile.x + tile.width; ++x) {
                 for (std::uint64_t index = block.first; index < block.last; ++index) {
-                    if (!meter.empty()) worker.first = {};
+                    if (!layers.empty()) worker.layers.start(worker.tracer.counts());
                     const SampleTaken sample =
                         take_sample(job_, edge, worker.tracer, *worker.sampler, options_.seed, {x, y}, index);
                     const SampleStatus status =
-                        meter.empty()
-                            ? state_.film.add({x, y}, sample.radiance, sample.weight)
-                            : state_.film.add({x, y}, sample.radiance, sample.weight,
-                                              meter.measure(worker.first, sample.radiance, worker.values),
-                                              index);
+                        layers.empty() ? state_.film.add({x, y}, sample.radiance, sample.weight)
+                                       : state_.film.add({x, y}, sample.radiance, sample.weight,
+                                                         worker.layers.measure(sample.radiance, sample.scale,
+                                                                               worker.tracer.counts()),
+                                                         index);
                     if (status != SampleStatus::accepted)
                         worker.left_out.add({{x, y}, index, sample.radiance, status});
                 }
             }
             done.pixels.height = y - tile.y + 1;
         }
+        if (tile_report && done.pixels.height > 0) tile_report(state_.film, done.pixels);
         reporter.add(done.count(), worker.tracer.counts().total() - rays_before);
         return done;
     };
@@ -273,7 +274,7 @@ ReplayedSample replay(const RenderJob& job, const RenderOptions& options, Vec2i 
     check_total(job, sample_index + 1, total);
     const FlushDenormals flush;
     ReplayedSample replayed;
-    Tracer tracer(*job.scene, &replayed.log);
+    Tracer tracer(*job.scene, {.log = &replayed.log});
     const std::unique_ptr<Sampler> sampler = job.sampler->clone(total);
     const FilmEdge edge(*job.filter, *job.camera);
     const SampleTaken sample = take_sample(job, edge, tracer, *sampler, options.seed, pixel, sample_index);

@@ -32,7 +32,7 @@ struct LoadedCheckpoint {
     std::string problem; // of the last generation, where it is damaged and this is the one before; else empty
 };
 
-// The state to go on from, or nothing if there is neither generation. Throws Error if there is a generation but none that
+// The state to resume from, or nothing if there is neither generation. Throws Error if there is a generation but none that
 // is whole.
 std::optional<LoadedCheckpoint> load_checkpoint(const std::filesystem::path& path);
 

@@ -12,6 +12,7 @@
 #include "plumb/scene/scene.h"
 #include "plumb/settings/settings_header.h"
 
+#include <algorithm>
 #include <cstring>
 #include <fmt/format.h>
 #if defined(__x86_64__) || defined(__i386__)
@@ -101,6 +102,11 @@ Metadata scene_header(const RenderTask& task)
     add("plumb:instructionSet", scene.job.scene->options().instruction_set);
     add("plumb:embree", scene.job.scene->embree_version());
     add("plumb:processor", processor_maker());
+    const auto is_jpeg = [](const InputFile& input) { return input.is_jpeg; };
+    if (std::any_of(scene.inputs.begin(), scene.inputs.end(), is_jpeg))
+        add("plumb:jpegDecoder", jpeg_decoder());
+    if (const auto lights = light_table(settings.view.splits, *scene.job.scene); !lights.empty())
+        header.emplace_back("plumb:ids.light", valid_utf8(lines_text(lights)));
     for (auto& [name, ids] : id_tables(aovs_of(settings.view, scene), *scene.job.scene)) {
         for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = fmt::format("{} {}", i + 1, ids[i]);
         header.emplace_back("plumb:ids." + name, valid_utf8(lines_text(ids)));

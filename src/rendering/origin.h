@@ -27,6 +27,7 @@
 //     plumb:envmapScale
 //     plumb:instructionSet, plumb:embree
 //     plumb:processor         who made it: "GenuineIntel". Its estimates of reciprocals are not those of another maker's
+//     plumb:jpegDecoder       what decoded the inputs that are JPEG files, "jpeg-turbo 2.1.5"; only if there are any
 //     plumb:biased            0 if the image's expectation is that of the light which its model sends; else 1
 //     plumb:biases            what makes it differ; only if biased
 //     plumb:model             choices of model; only if there are any

@@ -6,6 +6,7 @@
 #include "base/text.h"
 
 #include "plumb/base/error.h"
+#include "plumb/denoise/denoise.h"
 #include "plumb/image/image.h"
 
 #include <algorithm>
@@ -36,20 +37,27 @@ std::filesystem::path free_name(const std::filesystem::path& directory, const st
 
 // An image may have taken long. If its directory is gone it goes into the refuge, or else the current directory. Where it is
 // then, for a message; empty: nowhere.
-std::string write_into_refuge(const std::filesystem::path& output, const Image& image, float exposure,
-                              Packing packing, const std::filesystem::path& refuge)
+std::string write_into_refuge(const std::filesystem::path& output, const Image& image,
+                              const Development& development, Packing packing,
+                              const std::filesystem::path& refuge)
 {
     std::error_code ignored;
     if (!output.has_parent_path() || std::filesystem::exists(output.parent_path(), ignored)) return {};
     for (const std::filesystem::path& directory : {refuge, std::filesystem::path()}) {
         const std::filesystem::path path = free_name(directory, output.filename());
         try {
-            write_image(path, image, exposure, packing);
+            write_image(path, image, development, packing);
             return fmt::format("; the image was written to '{}' instead", path.string());
         } catch (const Error&) { // the message is that of the file that was asked for
         }
     }
     return {};
+}
+
+bool any_for_screens(const std::vector<std::string>& files)
+{
+    return std::any_of(files.begin(), files.end(),
+                       [](const std::string& file) { return is_for_screens(file); });
 }
 
 } // namespace
@@ -88,22 +96,38 @@ Packing packing_of(const Evidence& evidence)
     return evidence.stop == interruption ? Packing::fast : Packing::small;
 }
 
-void write_images(const std::vector<std::string>& outputs, const Image& image, float exposure,
+void check_denoising(const std::vector<std::string>& outputs, const OutputSettings& output)
+{
+    if (output.denoise && any_for_screens(outputs)) check_denoiser();
+}
+
+void write_images(const std::vector<std::string>& outputs, const Image& image, const OutputSettings& output,
                   Packing packing, const std::filesystem::path& refuge)
 {
     std::vector<std::string> problem_of(outputs.size());
+    std::optional<Image> clean;
+    std::string problem; // of denoising: then files for screens are written as they are
+    try {
+        if (output.denoise && any_for_screens(outputs)) clean = denoised(image);
+    } catch (const Error& error) {
+        problem = error.what();
+    }
+    const auto image_for = [&](const std::string& file) -> const Image& {
+        return clean && is_for_screens(file) ? *clean : image;
+    };
     parallel_for(outputs.size(), 0, [&](std::size_t i) {
         try {
-            write_image(outputs[i], image, exposure, packing);
+            write_image(outputs[i], image_for(outputs[i]), output.development, packing);
         } catch (const Error& error) {
             problem_of[i] = error.what();
         }
     });
     std::vector<std::string> problems;
+    if (!problem.empty()) problems.push_back(problem);
     for (std::size_t i = 0; i < outputs.size(); ++i)
         if (!problem_of[i].empty())
-            problems.push_back(problem_of[i] +
-                               write_into_refuge(outputs[i], image, exposure, packing, refuge));
+            problems.push_back(problem_of[i] + write_into_refuge(outputs[i], image_for(outputs[i]),
+                                                                 output.development, packing, refuge));
     if (!problems.empty()) throw Error(list_text(problems));
 }
 

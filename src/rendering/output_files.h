@@ -4,6 +4,7 @@
 // The files that a rendering writes.
 
 #include "plumb/render/evidence.h"
+#include "plumb/settings/render_settings.h"
 
 #include <filesystem>
 #include <optional>
@@ -32,10 +33,13 @@ private:
 // An interrupted image is written fast: somebody waits, and it will be replaced.
 Packing packing_of(const Evidence& evidence);
 
+// Before anything is rendered: throws Error if files for screens are to be denoised and that cannot be done.
+void check_denoising(const std::vector<std::string>& outputs, const OutputSettings& output);
+
 // Writes the image to all of these, at the same time. One that cannot be written does not keep the others from being
 // tried; if its directory is gone, it is written into `refuge` instead, or into the current directory. Throws Error, with
 // where it is then, if any was not written where it was to be.
-void write_images(const std::vector<std::string>& outputs, const Image& image, float exposure,
+void write_images(const std::vector<std::string>& outputs, const Image& image, const OutputSettings& output,
                   Packing packing, const std::filesystem::path& refuge);
 
 } // namespace plumb

@@ -55,6 +55,13 @@ std::vector<std::string> setting_changes(const Metadata& then, const Metadata& n
     return changes;
 }
 
+constexpr const char* vendor = "the processor vendor";
+
+std::string change_text(std::string_view meaning, std::string_view was, std::string_view is)
+{
+    return fmt::format("{} was {} and is {}", meaning, was, is);
+}
+
 } // namespace
 
 std::string header_text(const Metadata& header, std::string_view name)
@@ -123,6 +130,11 @@ std::vector<std::string> input_changes(const Metadata& then, const Metadata& now
     return changes;
 }
 
+std::string vendor_change(const Metadata& then, const Metadata& now)
+{
+    return change_text(vendor, value_text(then, processor_entry), value_text(now, processor_entry));
+}
+
 std::vector<std::string> sample_changes(const Metadata& then, const Metadata& now)
 {
     constexpr std::pair<const char*, const char*> settings[] = {
@@ -141,7 +153,8 @@ std::vector<std::string> sample_changes(const Metadata& then, const Metadata& no
         {"plumb:envmapScale", "the scale of environment images"},
         {"plumb:instructionSet", "the instruction set"},
         {"plumb:embree", "Embree's version"},
-        {"plumb:processor", "the processor vendor"},
+        {processor_entry, vendor},
+        {"plumb:jpegDecoder", "the JPEG decoder"},
     };
     if (has_old_hashes(then) != has_old_hashes(now))
         return {
@@ -149,7 +162,7 @@ std::vector<std::string> sample_changes(const Metadata& then, const Metadata& no
     std::vector<std::string> changes = input_changes(then, now);
     for (const auto& [name, meaning] : settings)
         if (const std::string was = value_text(then, name), is = value_text(now, name); was != is)
-            changes.push_back(fmt::format("{} was {} and is {}", meaning, was, is));
+            changes.push_back(change_text(meaning, was, is));
     if (const int was = language_of(then), is = language_of(now); was != is)
         changes.push_back(fmt::format("the version of the scene language was {} and is {}", was, is));
     if (changes.empty() && value_text(then, "plumb:inputHash") != value_text(now, "plumb:inputHash"))

@@ -35,6 +35,11 @@ RenderSettings header_settings(const Metadata& header, const std::string& file);
 // Whether the inputs are told by the hashes that Plumb 0.1 wrote: they are not comparable with SHA-256.
 bool has_old_hashes(const Metadata& header);
 
+// Who made the processors, by name; merge_parts() writes several.
+inline constexpr const char* processor_entry = "plumb:processor";
+// "the processor vendor was GenuineIntel and is AuthenticAMD", as sample_changes() says it.
+std::string vendor_change(const Metadata& then, const Metadata& now);
+
 // What is different in the files that were read, by plumb:inputs, and what options and dialect made of them, by
 // plumb:inputHash: "'a.obj' has changed". Empty: nothing.
 std::vector<std::string> input_changes(const Metadata& then, const Metadata& now);

@@ -5,6 +5,8 @@
 #include "rendering/origin.h"
 #include "rendering/provenance.h"
 
+#include "plumb/denoise/denoise.h"
+
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -71,6 +73,9 @@ Recipe read_recipe(const std::filesystem::path& image)
         throw Error(fmt::format("the header of '{}' does not say how the image was made; those of .exr files "
                                 "rendered by Plumb do",
                                 image.string()));
+    if (const std::string how = denoised_text(recipe.header); !how.empty())
+        throw Error(fmt::format("'{}' was denoised ({}); render the image again that it was made from",
+                                image.string(), how));
     if (const std::string software = header_text(recipe.header, "Software");
         software != "Plumb " PLUMB_VERSION)
         throw Error(fmt::format("'{}' was rendered by '{}', and this is Plumb {}, whose images may differ",

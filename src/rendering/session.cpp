@@ -8,7 +8,6 @@
 #include "rendering/provenance.h"
 
 #include "plumb/image/image.h"
-#include "plumb/render/aovs.h"
 #include "plumb/render/stop_rules.h"
 
 #include <chrono>
@@ -83,7 +82,7 @@ struct RenderSession::Impl {
     {
         const std::filesystem::path& file = options.checkpoint.file;
         const std::string name = file.string();
-        const ChannelSet layers = layers_of(task.options.aovs);
+        const ChannelSet layers = render_layers(task.scene.job, task.options);
         const Metadata of_program = with_program(header);
         std::optional<LoadedCheckpoint> loaded = load_checkpoint(file);
         if (loaded && !loaded->problem.empty())
@@ -100,8 +99,9 @@ struct RenderSession::Impl {
         }
         RenderState& state = loaded->file.state;
         if (state.film.layers() != layers)
-            throw Error(fmt::format("cannot resume from '{}': it has the layers {}, and --aov asks for {}",
-                                    name, layer_names(state.film.layers()), layer_names(layers)));
+            throw Error(
+                fmt::format("cannot resume from '{}': it has the layers {}, and --aov and --split ask for {}",
+                            name, layer_names(state.film.layers()), layer_names(layers)));
         if (state.film.window() != window)
             throw Error(fmt::format("cannot resume from '{}': it has the pixels {}, not {}", name,
                                     rectangle_text(state.film.window()), rectangle_text(window)));
@@ -171,7 +171,7 @@ struct RenderSession::Impl {
             return callbacks.is_stopped() || images->failed() || (has_checkpoint() && timer.due());
         };
         while (!rendering->take(
-            wanted, [this](const Progress& progress) { show(progress); }, pause)) {
+            wanted, [this](const Progress& progress) { show(progress); }, pause, callbacks.tile)) {
             if (images->failed()) images->wait(); // throws: what is rendered could not be written
             if (callbacks.is_stopped()) return false;
             try {

@@ -17,6 +17,12 @@ namespace plumb {
 
 namespace {
 
+void replace(Metadata& header, const std::string& name, const std::string& text)
+{
+    std::erase_if(header, [&](const auto& entry) { return entry.first == name; });
+    if (!text.empty()) header.emplace_back(name, text);
+}
+
 std::uint64_t wanted_samples(const StateFile& file, const std::string& name)
 {
     if (const auto samples = header_samples(file.header, "plumb:workWanted", name)) return *samples;
@@ -33,6 +39,19 @@ void check_language(const StateFile& part, const std::string& name)
                                 name, was, language_version));
 }
 
+// All vendors in one entry, whichever part comes first.
+void unite_processors(Metadata& a, Metadata& b)
+{
+    std::vector<std::string> vendors = list_items(header_text(a, processor_entry));
+    const std::vector<std::string> others = list_items(header_text(b, processor_entry));
+    vendors.insert(vendors.end(), others.begin(), others.end());
+    std::sort(vendors.begin(), vendors.end());
+    vendors.erase(std::unique(vendors.begin(), vendors.end()), vendors.end());
+    const std::string all = fmt::format("{}", fmt::join(vendors, ", "));
+    replace(a, processor_entry, all);
+    replace(b, processor_entry, all);
+}
+
 // Throws Error if the part is not one of the same image, or has samples that are there already.
 void check_part(const Work& work, const StateFile& part, const std::string& name)
 {
@@ -40,8 +59,11 @@ void check_part(const Work& work, const StateFile& part, const std::string& name
     const auto refuse = [&](const std::string& why) {
         throw Error(fmt::format("'{}' and '{}' are not parts of one image: {}", first, name, why));
     };
-    if (const auto changes = sample_changes(work.file.header, part.header); !changes.empty())
-        refuse(list_text(changes));
+    if (const auto changes = sample_changes(work.file.header, part.header); !changes.empty()) {
+        const bool vendor_only = changes == std::vector{vendor_change(work.file.header, part.header)};
+        refuse(list_text(changes) +
+               (vendor_only ? "; pass --mixed to merge them without the promise of equal bits" : ""));
+    }
     if (part.resolution != work.file.resolution || part.state.film.window() != work.file.state.film.window())
         refuse(fmt::format("one has the pixels {}, the other {}",
                            rectangle_text(work.file.state.film.window()),
@@ -90,12 +112,6 @@ std::string missing_parts(const std::vector<std::string>& names)
     return missing.empty() ? std::string() : fmt::format(" ({})", list_text(missing));
 }
 
-void replace(Metadata& header, const std::string& name, const std::string& text)
-{
-    std::erase_if(header, [&](const auto& entry) { return entry.first == name; });
-    if (!text.empty()) header.emplace_back(name, text);
-}
-
 } // namespace
 
 SampleSet Work::wanted() const
@@ -108,7 +124,7 @@ SampleSet Work::missing() const
     return wanted() - file.state.taken;
 }
 
-Work merge_parts(std::span<const std::filesystem::path> files)
+Work merge_parts(std::span<const std::filesystem::path> files, const MergeOptions& options)
 {
     std::optional<Work> work;
     for (const std::filesystem::path& path : files) {
@@ -124,6 +140,7 @@ Work merge_parts(std::span<const std::filesystem::path> files)
         if (!work) {
             work.emplace(Work{std::move(part), settings, {}, {}, samples_per_pixel});
         } else {
+            if (options.mixed_processors) unite_processors(work->file.header, part.header);
             check_part(*work, part, name);
             work->file.state += part.state;
             if (rank(part.header) < rank(work->file.header)) {

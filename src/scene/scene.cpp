@@ -28,7 +28,8 @@ Group::Group(std::vector<SceneObject> objects, std::string name)
 }
 
 Scene::Scene(std::vector<SceneObject> objects, std::vector<std::unique_ptr<Emitter>> lights,
-             const SceneOptions& options, std::vector<Instance> instances)
+             const SceneOptions& options, std::vector<Instance> instances,
+             std::vector<std::string> light_names)
     : options_(options),
       objects_(std::move(objects)),
       instances_(std::move(instances)),
@@ -44,10 +45,15 @@ Scene::Scene(std::vector<SceneObject> objects, std::vector<std::unique_ptr<Emitt
     };
     for (const SceneObject& object : objects_) {
         if (object.emitter) object.shape->prepare_sampling();
+        if (object.emitter) emitter_names_.push_back(object.name);
         facts_.push_back(
             {object.emitter ? add_emitter(*object.emitter) : 0, object.bsdf && object.bsdf->is_oriented()});
     }
-    for (const auto& light : lights_) add_emitter(*light);
+    light_names.resize(lights_.size());
+    for (std::size_t i = 0; i < lights_.size(); ++i) {
+        add_emitter(*lights_[i]);
+        emitter_names_.push_back(light_names[i].empty() ? fmt::format("light {}", i + 1) : light_names[i]);
+    }
     for_each_object([this](const SceneObject& object) {
         has_null_surfaces_ = has_null_surfaces_ || object.bsdf->lobes().has_any(Lobe::null);
     });

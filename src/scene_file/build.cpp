@@ -7,6 +7,7 @@
 #include "plumb/render/aovs.h"
 #include "scene_file/axis_camera.h"
 #include "scene_file/build_child.h"
+#include "scene_file/face_bsdfs.h"
 #include "scene_file/foreign_names.h"
 #include "scene_file/nori_words.h"
 #include "scene_file/placement.h"
@@ -29,10 +30,12 @@ Property integer_property(std::uint64_t value)
     return property;
 }
 
-// Bytes for an image of beauty alone: the film, the image that it becomes, and a copy for writing.
-double image_bytes(double pixels)
+// Bytes for an image: the film, the image that it becomes, and a copy for writing.
+double image_bytes(double pixels, const ChannelSet& layers)
 {
-    return pixels * static_cast<double>(Film::bytes_per_pixel() + 2 * 3 * sizeof(float));
+    std::size_t channels = 3;
+    for (const Layer& layer : layers) channels += layer.components.size();
+    return pixels * static_cast<double>(Film::bytes_per_pixel(layers) + 2 * channels * sizeof(float));
 }
 
 // Of a type that the settings name, in the words of any course.
@@ -73,10 +76,13 @@ SceneContents SceneBuilder::build_contents()
 {
     SceneContents contents;
     build_children(children_, context_, [&](std::size_t i, BuiltChild& child) {
-        if (kind_of(*children_[i]) == "shape")
+        if (kind_of(*children_[i]) == "shape") {
             contents.objects.push_back(std::move(child.object));
-        else if (child.light)
-            contents.lights.push_back(std::move(child.light));
+            return;
+        }
+        if (!child.light) return;
+        contents.lights.push_back(std::move(child.light));
+        contents.light_names.push_back(place_name(*children_[i]));
     });
     contents.instances = groups_.build(context_);
     return contents;
@@ -187,8 +193,11 @@ void SceneBuilder::build_camera(MethodAndView& parts, const ViewSettings& view)
 void SceneBuilder::check_memory(Vec2i resolution, const ViewSettings& view)
 {
     const double pixels = static_cast<double>(resolution.x) * static_cast<double>(resolution.y);
-    const double needed =
-        image_bytes(view.crop ? static_cast<double>(view.crop->width) * view.crop->height : pixels);
+    std::vector<std::string> aovs = view.aovs;
+    for (const std::string& aov : aovs_)
+        if (std::find(aovs.begin(), aovs.end(), aov) == aovs.end()) aovs.push_back(aov);
+    const double needed = image_bytes(
+        view.crop ? static_cast<double>(view.crop->width) * view.crop->height : pixels, layers_of(aovs));
     const auto available = available_memory();
     if (!available || needed <= static_cast<double>(*available)) return;
     SourceLocation at;
@@ -248,7 +257,7 @@ std::shared_ptr<const Scene> make_scene(SceneContents contents, const std::strin
 {
     return std::make_shared<const Scene>(std::move(contents.objects), std::move(contents.lights),
                                          SceneOptions{dialect.emitters_absorb, instruction_set},
-                                         std::move(contents.instances));
+                                         std::move(contents.instances), std::move(contents.light_names));
 }
 
 std::optional<RenderJob> assemble(std::shared_ptr<const Scene> scene, MethodAndView parts,

@@ -18,6 +18,7 @@ struct SceneContents {
     std::vector<SceneObject> objects;
     std::vector<Instance> instances;
     std::vector<std::unique_ptr<Emitter>> lights;
+    std::vector<std::string> light_names;
 };
 
 // What a scene is rendered with. Null only where `context.diagnostics` has errors.

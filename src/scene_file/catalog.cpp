@@ -90,6 +90,8 @@ constexpr Entry<Emitter> emitters[] = {
 constexpr Entry<Camera> cameras[] = {
     {"perspective", build<class PerspectiveCamera>, "PerspectiveCamera"},
     {"orthographic", build<class OrthographicCamera>, "OrthographicCamera"},
+    {"spherical", build<class SphericalCamera>, "SphericalCamera"},
+    {"fisheye", build<class FisheyeCamera>, "FisheyeCamera"},
 };
 
 constexpr Entry<Sampler> samplers[] = {

@@ -37,7 +37,7 @@ std::span<const Entry<Integrator>> integrator_types();
 // The kind of object that a tag stands for ("shape" for mesh and shape, else the tag); empty for other tags.
 std::string_view kind_of_tag(std::string_view tag);
 // The kind that has a type of this name, or "".
-std::string_view kind_of_type(std::string_view type);
+std::string_view kind_of_type(std::string_view name);
 
 // A parameter that course files carry and the courses' own code never reads.
 struct IgnoredParameter {

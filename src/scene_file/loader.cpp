@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "base/parallel.h"
 #include "plumb/base/hash.h"
+#include "plumb/image/image.h"
 #include "plumb/scene/scene.h"
 #include "plumb/scene_file/scene_file.h"
 #include "scene_file/after_load.h"
@@ -39,6 +40,7 @@ std::vector<InputFile> input_files(const Expansion& expansion, const std::vector
     for (const std::filesystem::path& file : read) files.push_back({file, {}});
     parallel_for(files.size(), 0, [&](std::size_t i) {
         files[i].hash = i < first ? sha256(expansion.files[i]->text()) : sha256_of_file(read[i - first]);
+        files[i].is_jpeg = i >= first && is_jpeg(read[i - first]);
     });
     return files;
 }

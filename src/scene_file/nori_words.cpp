@@ -58,8 +58,9 @@ constexpr Vocabulary eth = {.name = "eth", .presets = course_presets, .base = &n
 constexpr Vocabulary zaragoza = {.name = "zaragoza", .presets = course_presets, .base = &nori};
 constexpr Vocabulary mcgill = {.name = "mcgill", .presets = mcgill_presets, .base = &nori};
 
-constexpr std::string_view mirrored_cameras[] = {"perspective", "thinlens", "perspective_dof",
-                                                 "perspective_depth", "orthographic"};
+constexpr std::string_view mirrored_cameras[] = {
+    "perspective",  "thinlens",  "perspective_dof", "perspective_depth",
+    "orthographic", "spherical", "fisheye"};
 
 } // namespace
 

@@ -2,11 +2,13 @@
 #include "plumb/settings/render_settings.h"
 
 #include "plumb/base/error.h"
+#include "plumb/image/development.h"
 #include "plumb/render/aovs.h"
 #include "plumb/render/film.h"
 #include "settings/parse_value.h"
 #include "settings/setting_text.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace plumb {
@@ -55,6 +57,20 @@ Texts dialect_text(const S& s)
     return s.scene.dialect ? Texts{std::string(to_string(*s.scene.dialect))} : Texts();
 }
 
+void set_tonemap(S& s, Name name, Text text)
+{
+    const auto names = tone_curve_names();
+    const std::string word = parse_word(name, text, {names.begin(), names.end()});
+    s.output.development.curve =
+        static_cast<ToneCurve>(std::find(names.begin(), names.end(), word) - names.begin());
+}
+
+Texts tonemap_text(const S& s)
+{
+    const ToneCurve curve = s.output.development.curve;
+    return curve == ToneCurve::none ? Texts() : Texts{std::string(to_string(curve))};
+}
+
 void set_aovs(S& s, Name name, Text text)
 {
     std::vector<std::string> aovs = parse_list(name, text);
@@ -70,6 +86,21 @@ Texts aovs_text(const S& s)
 {
     const auto& aovs = s.view.aovs;
     return aovs.empty() ? Texts() : Texts{fmt::format("{}", fmt::join(aovs, ","))};
+}
+
+void set_splits(S& s, Name name, Text text)
+{
+    try {
+        s.view.splits = light_splits_from_text(parse_list(name, text));
+    } catch (const Error& problem) {
+        throw Error(fmt::format("{}: {}", name, problem.what()));
+    }
+}
+
+Texts splits_text(const S& s)
+{
+    const auto& splits = s.view.splits;
+    return splits.empty() ? Texts() : Texts{fmt::format("{}", fmt::join(to_texts(splits), ","))};
 }
 
 // "Embree instruction set: sse2, sse4.2, avx, avx2 or avx512 (default avx2)", on the processors that have these.
@@ -93,9 +124,18 @@ std::span<const SettingRow<RenderSettings>> setting_rows<RenderSettings>()
 {
     static const std::string help_of_isa = isa_help();
     static const SettingRow<RenderSettings> rows[] = {
-        {"exposure", "EV", "multiply .png and .jpg by 2^EV (default 0)", "the exposure", Effect::file,
-         [](const S& s) { return text_unless(s.output.exposure, 0.f); },
-         [](S& s, Name n, Text t) { s.output.exposure = parse_number(n, t, -100.f, 100.f); }},
+        {"exposure", "STOPS", "multiply .png and .jpg by 2^STOPS (default 0)", "the exposure", Effect::file,
+         [](const S& s) { return text_unless(s.output.development.exposure, 0.f); },
+         [](S& s, Name n, Text t) { s.output.development.exposure = parse_number(n, t, -100.f, 100.f); }},
+        {"tonemap", "CURVE",
+         "tone curve of .png and .jpg: none, filmic, aces or\n"
+         "agx (default none: values above white are clipped)",
+         "the tone curve", Effect::file, tonemap_text, set_tonemap},
+        {"denoise", "",
+         "denoise .png and .jpg with Open Image Denoise; adds\n"
+         "the layers albedo_behind and normal_behind",
+         "denoising", Effect::file, [](const S& s) { return switch_text(s.output.denoise); },
+         [](S& s, Name n, Text t) { s.output.denoise = parse_switch(n, t); }},
         {"no-variance", "",
          "omit the error bars from .exr files: variance.R,\n"
          "variance.G, variance.B and contributing",
@@ -115,6 +155,10 @@ std::span<const SettingRow<RenderSettings>> setting_rows<RenderSettings>()
          Effect::coverage, crop_text, [](S& s, Name n, Text t) { s.view.crop = parse_rectangle(n, t); }},
         {"aov", "NAME,...", "add layers to .exr files: albedo, normal, depth and\nothers (docs/aovs.md)",
          "the list of layers", Effect::coverage, aovs_text, set_aovs},
+        {"split", "WHAT,...",
+         "add layers to .exr files that add up to the image:\n"
+         "by depth, technique or light (docs/aovs.md)",
+         "the split of the light", Effect::coverage, splits_text, set_splits},
         {"integrator", "TYPE",
          "use this integrator instead of the scene's, with\n"
          "default parameters",

@@ -7,6 +7,7 @@
 #include "scene_file/property_values.h"
 #include "suite_file/foreign_attributes.h"
 #include "suite_file/suite_names.h"
+#include "suite_file/written_files.h"
 
 #include <algorithm>
 #include <unordered_map>
@@ -63,6 +64,7 @@ public:
         read_group(root, {});
         if (entries_.empty() && !diagnostics_.has_errors())
             diagnostics_.error(root.place(), R"(the suite is empty; it needs a <render scene="..."/>)");
+        check_written_files(entries_, diagnostics_);
         return std::move(entries_);
     }
 

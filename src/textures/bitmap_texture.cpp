@@ -16,7 +16,7 @@ namespace plumb {
 /// floating-point images are linear already. Read as a number, a colour is its luminance. An alpha channel is left out.
 /// 8-bit images take 1 (grey) or 3 bytes a pixel of memory, others 12.
 ///
-///     filename   string      the image, in any format that OpenImageIO reads
+///     filename   string      the image: EXR, HDR, PNG, JPEG, BMP, TGA; with OpenImageIO any that it reads
 ///     raw        boolean     take integers as value / maximum, without decoding sRGB         (default false)
 ///     filter     string      bilinear or nearest                                             (default bilinear)
 ///     wrap       string      beyond the image: repeat, mirror (every second copy) or clamp   (default repeat)

@@ -13,7 +13,7 @@ namespace plumb {
 /// bilinearly. Images of 8-bit or 16-bit integers are taken to be sRGB and decoded to linear light; floating-point
 /// images are linear already.
 ///
-///     filepath   string    the image, in any format that OpenImageIO reads
+///     filepath   string    the image: EXR, HDR, PNG, JPEG, BMP, TGA; with OpenImageIO any that it reads
 ///     raw        boolean   take integers as value / maximum, without decoding sRGB   (default false)
 ///
 /// For example:

@@ -15,7 +15,7 @@ namespace plumb {
 /// (i, j) stands at x = i and y = j; in between it is interpolated bilinearly, and it repeats. Integers become value /
 /// maximum. To show photographs in their true colours, use `imagetexture_color3f`.
 ///
-///     filename   string   the image, in any format that OpenImageIO reads
+///     filename   string   the image: EXR, HDR, PNG, JPEG, BMP, TGA; with OpenImageIO any that it reads
 ///     color      color    multiplies the image   (default 1)
 ///     scalex     float    read and not used, as in the course; other values than 1 give a warning   (default 1)
 ///     scaley     float    the same   (default 1)

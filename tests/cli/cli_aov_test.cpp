@@ -131,10 +131,10 @@ TEST_CASE("layers that are not those of the checkpoint or of another part are re
         CHECK(result.exit_code == 1);
         return result.err;
     };
-    CHECK(refusal({}) ==
-          "error: cannot resume from 'c.exr': it has the layers normal, depth, and --aov asks for none\n");
-    CHECK(refusal({"--aov", "albedo"}) ==
-          "error: cannot resume from 'c.exr': it has the layers normal, depth, and --aov asks for albedo\n");
+    CHECK(refusal({}) == "error: cannot resume from 'c.exr': it has the layers normal, depth, and --aov and "
+                         "--split ask for none\n");
+    CHECK(refusal({"--aov", "albedo"}) == "error: cannot resume from 'c.exr': it has the layers normal, "
+                                          "depth, and --aov and --split ask for albedo\n");
 
     REQUIRE(directory.run({"scene.xml", "-o", "p1.exr", "--part", "1/2", "--aov", "uv"}).exit_code == 0);
     REQUIRE(directory.run({"scene.xml", "-o", "p2.exr", "--part", "2/2"}).exit_code == 0);

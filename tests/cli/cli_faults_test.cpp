@@ -98,7 +98,7 @@ TEST_CASE("an image whose directory vanished is put beside the checkpoint", "[cl
     CHECK(read_bytes(directory / "kept/a.exr") == read_bytes(directory / "whole.exr"));
 }
 
-TEST_CASE("a scene that is edited while it is rendered is not gone on from", "[cli][faults]")
+TEST_CASE("a scene that is edited while it is rendered is not resumed", "[cli][faults]")
 {
     const SceneDirectory directory;
     REQUIRE(

@@ -111,7 +111,7 @@ TEST_CASE("the name of the previous generation takes no file of others", "[cli][
     {
         check_refused(directory, {"-o", "a.exr", "--checkpoint", "c.exr"}, "'c.previous.exr' already exists");
     }
-    SECTION("when one is gone on with")
+    SECTION("when one is resumed")
     {
         fs::remove(directory / "c.previous.exr");
         REQUIRE(directory.run({"scene.xml", "-o", "a.exr", "--spp", "2", "--checkpoint", "c.exr", "--quiet"})

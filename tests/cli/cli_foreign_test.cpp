@@ -178,6 +178,20 @@ TEST_CASE("a command is run again when its program, its inputs or its words chan
     CHECK_THAT(directory.batch().out, ContainsSubstring("error: cannot read the input 'none.exr'\n"));
 }
 
+TEST_CASE("a missing reference is said before a command runs", "[cli][batch][foreign]")
+{
+    const ForeignDirectory directory;
+    directory.script("slow", "echo ran >> " + (directory / "log").string() + "; cp \"$1\" \"$2\"");
+    directory.render("a.exr", "3");
+    directory.suite(
+        R"(<render name="a" command="./slow {directory}/a.exr {image}" reference="refs/a.exr"/>)");
+    const RunResult run = directory.batch();
+    CHECK(run.exit_code == 1);
+    CHECK_THAT(run.out,
+               ContainsSubstring("reference 'refs/a.exr' does not exist, and no scene says how it is made"));
+    CHECK_FALSE(std::filesystem::exists(directory / "log"));
+}
+
 TEST_CASE("what a command does wrong is one clear error with the end of its output", "[cli][batch][foreign]")
 {
     const ForeignDirectory directory;

@@ -35,6 +35,30 @@ TEST_CASE("a scene becomes an image", "[cli][render]")
     CHECK(brightest > 0.1f);
 }
 
+TEST_CASE("the header names the decoder of JPEG images, if the scene has any", "[cli][render]")
+{
+    const SceneDirectory directory;
+    const auto with_texture = [](const std::string& file) {
+        std::string scene = small_scene();
+        const std::string plain = R"(<color name="albedo" value="0.6,0.5,0.4"/>)";
+        return scene.replace(
+            scene.find(plain), plain.size(),
+            R"(<texture type="imagetexture_color3f" name="albedo"><string name="filepath" value=")" + file +
+                R"("/></texture>)");
+    };
+    REQUIRE(directory.run({"scene.xml", "-o", "a.jpg", "-o", "a.png", "-o", "none.exr"}).exit_code == 0);
+    std::filesystem::rename(directory / "a.jpg", directory / "a.image"); // what it holds counts
+    directory.write("jpeg.xml", with_texture("a.image"));
+    directory.write("png.xml", with_texture("a.png"));
+    REQUIRE(directory.run({"jpeg.xml", "-o", "jpeg.exr", "-o", "jpeg.png"}).exit_code == 0);
+    REQUIRE(directory.run({"png.xml", "-o", "png.exr"}).exit_code == 0);
+    CHECK(text(header(directory / "none.exr"), "plumb:jpegDecoder") == "no plumb:jpegDecoder");
+    CHECK(text(header(directory / "png.exr"), "plumb:jpegDecoder") == "no plumb:jpegDecoder");
+    CHECK(text(header(directory / "jpeg.exr"), "plumb:jpegDecoder") == jpeg_decoder());
+    CHECK(text(header(directory / "jpeg.png"), "plumb:jpegDecoder") == jpeg_decoder());
+    CHECK_THAT(jpeg_decoder(), ContainsSubstring("jpeg"));
+}
+
 TEST_CASE("without -o the names come from the scene and its samples", "[cli][render]")
 {
     const SceneDirectory directory;

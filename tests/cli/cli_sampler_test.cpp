@@ -42,7 +42,7 @@ TEST_CASE("--sampler takes the scene's number of samples, and error bars say wha
     CHECK(header(directory / "a.exr").count("plumb:errorBars") == 0);
 }
 
-TEST_CASE("sobol is gone on with to any number of samples", "[cli][sampler][checkpoint]")
+TEST_CASE("sobol resumes to any number of samples", "[cli][sampler][checkpoint]")
 {
     const SceneDirectory directory;
     REQUIRE(run_with(directory, "sobol", {"-o", "whole.exr", "--spp", "21"}).exit_code == 0);
@@ -69,7 +69,7 @@ TEST_CASE("parts by any sampler make the image", "[cli][sampler][merge]")
     CHECK(read_bytes(directory / "merged.exr") == read_bytes(directory / "whole.exr"));
 }
 
-TEST_CASE("an image by stratified is not gone on with past its total", "[cli][sampler][checkpoint]")
+TEST_CASE("an image by stratified is not resumed past its total", "[cli][sampler][checkpoint]")
 {
     const SceneDirectory directory;
     REQUIRE(

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-// The program starts fast, because it loads OpenImageIO only for images.
+// The program starts fast, because it loads what reads and writes images only for images.
 
 #include "build_paths.h"
 #include "cli/small_scene.h"
@@ -10,12 +10,12 @@ using namespace plumb;
 
 namespace {
 
-// Whether a run loads OpenImageIO, by what the loader of libraries says.
+// Whether a run loads the image library, by what the loader of libraries says.
 bool loads_images(const SceneDirectory& directory, const Names& words)
 {
     const RunResult result = run_renderer(words, directory.path(), "", {}, {"LD_DEBUG=files"});
     REQUIRE(result.err.find("libembree") != std::string::npos);
-    return result.err.find("libOpenImageIO") != std::string::npos;
+    return result.err.find("libplumb_images") != std::string::npos;
 }
 
 // A program without its libplumb_images.so.
@@ -31,7 +31,7 @@ const std::string missing =
 
 } // namespace
 
-TEST_CASE("only images take OpenImageIO", "[cli][startup]")
+TEST_CASE("only images take the image library", "[cli][startup]")
 {
     const SceneDirectory directory;
     CHECK_FALSE(loads_images(directory, {"--version"}));

@@ -42,6 +42,13 @@ int output_columns()
     return 80;
 }
 
+TerminalSize terminal_size()
+{
+    return {};
+}
+
+void draw_on_terminal(std::string_view) {}
+
 void redraw_line(std::string_view) {}
 
 } // namespace plumb

@@ -102,6 +102,10 @@ public:
         return image;
     }
 
+    void check_written_format(const std::string&) const override {}
+
+    std::string jpeg_decoder() const override { return "none"; }
+
     std::vector<unsigned char> encode(const ImageFile& image) const override
     {
         TextImage text{image.data, image.full_width, image.full_height, image.channels, {}, 0, image.metadata,

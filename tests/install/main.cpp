@@ -2,7 +2,7 @@
 
 // What the program does, with the library alone: consumer SCENE SUITE DIRECTORY
 
-#include <plumb/experiments/agree.h>
+#include <plumb/experiments/race.h>
 #include <plumb/experiments/suite_run.h>
 #include <plumb/rendering/recipe.h>
 #include <plumb/rendering/work.h>

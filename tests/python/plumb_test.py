@@ -56,6 +56,27 @@ class PlumbTest(unittest.TestCase):
         # The lower half of the image sees the floor, whose normal is +y.
         self.assertAlmostEqual(float(image.layer("normal")["Y"][-1].mean()), 1.0, places=5)
 
+    def test_the_program_is_the_named_one_or_that_of_the_package_or_one_in_the_path(self):
+        def program(name):
+            file = self.directory / name / "renderer"
+            file.parent.mkdir()
+            file.write_text("#!/bin/sh\n")
+            file.chmod(0o755)
+            return str(file)
+        named, packaged, in_path = program("named"), program("packaged"), program("path")
+        found = plumb.find_renderer
+        path = {"PATH": str(Path(in_path).parent)}
+        with unittest.mock.patch("plumb.program.IN_PACKAGE", Path(packaged)):
+            with unittest.mock.patch.dict(os.environ, {**path, "PLUMB_RENDERER": named}):
+                self.assertEqual(found(), named)
+            with unittest.mock.patch.dict(os.environ, {**path, "PLUMB_RENDERER": ""}):
+                self.assertEqual(found(), packaged)
+                Path(packaged).unlink()
+                self.assertEqual(found(), in_path)
+                Path(in_path).unlink()
+                with self.assertRaises(plumb.Error):
+                    found()
+
     def test_what_is_written_is_what_is_read(self):
         rng = np.random.default_rng(1)
         channels = {name: rng.random((7, 5), dtype=np.float32) for name in ("R", "G", "B", "variance.R", "a.very.long.name.of.a.layer.X")}

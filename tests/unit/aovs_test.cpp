@@ -210,10 +210,11 @@ TEST_CASE("AOVs of nothing are 0", "[unit][aov]")
     const Rendered seen(wall(-2.f, 1.f, red) + lamp);
     const Names& names = seen.image().channel_names();
     for (std::size_t i = 3; i < names.size(); ++i)
-        if (!names[i].starts_with("xyz") &&
+        if (!names[i].starts_with("xyz") && !names[i].starts_with("rays") &&
             !names[i].starts_with("variance_of_xyz")) // what arrives, from anywhere
             CHECK(seen.mean(names[i]) == 0.0);
     CHECK(seen.mean("R") == Approx(0.5).epsilon(1e-5));
+    CHECK(seen.mean("rays.N") == 1.0);
 }
 
 TEST_CASE("a mean over an edge is not darkened by what is not there", "[unit][aov]")
@@ -342,7 +343,8 @@ TEST_CASE("the order of AOVs' names does not matter, and unknown ones are refuse
         "unknown AOV 'colour'; known are albedo, albedo_behind, normal, normal_behind, "
         "geometric_normal, depth, depth_behind, depth_z, position, uv, coverage, object, "
         "object_behind, material, material_behind, mean_depth, mean_position, mean_uv, mean_normal, "
-        "mean_geometric_normal, mean_dp_du, mean_dp_dv, mean_object, mean_primitive, xyz, xyz_squared, and "
+        "mean_geometric_normal, mean_dp_du, mean_dp_dv, mean_object, mean_primitive, xyz, xyz_squared, rays, "
+        "and "
         "variance_of_NAME of those that are no ids");
 }
 

@@ -6,8 +6,10 @@
 #include "support/random.h"
 
 namespace plumb {
+class FisheyeCamera;
 class PerspectiveCamera;
-}
+class SphericalCamera;
+} // namespace plumb
 
 using namespace plumb;
 using test::ParamsBuilder;
@@ -115,4 +117,87 @@ TEST_CASE("cameras refuse what makes no image", "[unit][camera]")
     CHECK_THAT(
         complaints(ParamsBuilder("camera", "perspective").number("nearClip", 3.0).number("farClip", 2.0)),
         ContainsSubstring("must be less than farClip"));
+}
+
+TEST_CASE("the spherical camera's columns are longitudes, its rows latitudes", "[unit][camera]")
+{
+    const auto camera = ParamsBuilder("camera", "spherical")
+                            .integer("width", 400)
+                            .integer("height", 200)
+                            .build<SphericalCamera, Camera>();
+    const auto direction = [&](float x, float y) {
+        return camera->sample_ray({x, y}, lens_centre).ray.direction;
+    };
+    const auto is = [](const Vec3f& a, const Vec3f& b) { return length(a - b) < 1e-6f; };
+    CHECK(is(direction(200.f, 100.f), {0.f, 0.f, 1.f}));
+    CHECK(is(direction(100.f, 100.f), {1.f, 0.f, 0.f})); // +x is left
+    CHECK(is(direction(300.f, 100.f), {-1.f, 0.f, 0.f}));
+    CHECK(is(direction(0.f, 100.f), {0.f, 0.f, -1.f}));
+    CHECK(is(direction(400.f, 100.f), {0.f, 0.f, -1.f}));
+    CHECK(is(direction(37.f, 0.f), {0.f, 1.f, 0.f}));
+    CHECK(is(direction(37.f, 200.f), {0.f, -1.f, 0.f}));
+    CHECK(is(direction(200.f, 50.f), {0.f, std::sqrt(0.5f), std::sqrt(0.5f)}));
+    // Across the pole: the other side.
+    CHECK(is(direction(120.f, -10.f), direction(320.f, 10.f)));
+}
+
+TEST_CASE("the fisheye sees a cap of directions in a circle", "[unit][camera]")
+{
+    const std::string mapping = GENERATE("equidistant", "equisolid");
+    const float fov = GENERATE(90.f, 180.f, 360.f);
+    CAPTURE(mapping, fov);
+    const auto camera = ParamsBuilder("camera", "fisheye")
+                            .integer("width", 300)
+                            .integer("height", 200)
+                            .number("fov", fov)
+                            .string("mapping", mapping)
+                            .build<FisheyeCamera, Camera>();
+    const auto angle = [&](float x, float y) {
+        const CameraRay seen = camera->sample_ray({x, y}, lens_centre);
+        CHECK(seen.weight == Color(1.f));
+        CHECK(length(seen.ray.direction) == Approx(1.f));
+        return std::acos(std::clamp(seen.ray.direction.z, -1.f, 1.f)) * 360.f / pi; // of the whole field
+    };
+    CHECK(angle(150.f, 100.f) == Approx(0.f).margin(0.05));
+    // The whole sphere's edge is a single direction, where the angle is a square root of the distance.
+    const double tolerance = mapping == "equisolid" && fov == 360.f ? 5e-3 : 1e-3;
+    CHECK(angle(150.f, 0.001f) == Approx(fov).epsilon(tolerance));
+    CHECK(angle(50.001f, 100.f) == Approx(fov).epsilon(tolerance));
+    const float half = mapping == "equidistant"
+                           ? 0.5f * fov
+                           : 4.f * 180.f / pi * std::asin(0.5f * std::sin(fov * pi / 720.f));
+    CHECK(angle(150.f, 50.f) == Approx(half).epsilon(1e-3));
+    const Ray left = camera->sample_ray({100.f, 100.f}, lens_centre).ray,
+              up = camera->sample_ray({150.f, 50.f}, lens_centre).ray;
+    CHECK(left.direction.x > 0.f);
+    CHECK(up.direction.y > 0.f);
+    // Outside the circle nothing is seen.
+    const CameraRay outside = camera->sample_ray({20.f, 100.f}, lens_centre);
+    CHECK(outside.weight == Color(0.f));
+    CHECK(outside.ray.t_max == 0.f);
+}
+
+TEST_CASE("equal areas of an equisolid image are equal solid angles", "[unit][camera]")
+{
+    const auto camera = ParamsBuilder("camera", "fisheye")
+                            .integer("width", 100)
+                            .integer("height", 100)
+                            .number("fov", 240.0)
+                            .string("mapping", "equisolid")
+                            .build<FisheyeCamera, Camera>();
+    // Of directions uniform on a cap, the cosines are uniform from cos 120 to 1: Archimedes.
+    double sum = 0.0, sum_of_squares = 0.0, count = 0.0;
+    for (int y = 0; y < 400; ++y) {
+        for (int x = 0; x < 400; ++x) {
+            const Vec2f raster(static_cast<float>(x) / 4.f + 0.125f, static_cast<float>(y) / 4.f + 0.125f);
+            const CameraRay seen = camera->sample_ray(raster, lens_centre);
+            if (seen.weight == Color(0.f)) continue;
+            sum += seen.ray.direction.z;
+            sum_of_squares += seen.ray.direction.z * seen.ray.direction.z;
+            ++count;
+        }
+    }
+    CHECK(count / 160'000.0 == Approx(pi / 4.0).epsilon(2e-3));
+    CHECK(sum / count == Approx(0.25).epsilon(2e-3));
+    CHECK(sum_of_squares / count - 0.0625 == Approx(1.5 * 1.5 / 12.0).epsilon(2e-3));
 }

@@ -320,6 +320,19 @@ TEST_CASE("an image must fit into memory", "[unit][loader]")
     options = {};
     options.view.size = Vec2i(4, 4);
     CHECK(load_text(xml, options).job.camera->resolution() == Vec2i(4, 4));
+
+    // Layers count: what fits without them may not fit with them, whether options or the scene ask for them.
+    const double rows = 0.6 * static_cast<double>(*available) / (65535.0 * 136.0);
+    options = {};
+    options.view.crop = PixelRect{0, 0, 65535, std::clamp(static_cast<int>(rows), 1, 65535)};
+    CHECK(load_text(xml, options).job.camera->resolution() == Vec2i(65535, 65535));
+    options.view.aovs = {"albedo", "normal", "position"};
+    CHECK_THROWS_WITH(load_text(xml, options), ContainsSubstring("GB of memory, but only"));
+    options.view.aovs.clear();
+    const std::string asking =
+        "<scene dialect='plumb'><string name='aovs' value='albedo, normal, position'/>" +
+        xml.substr(std::string("<scene dialect='plumb'>").size());
+    CHECK_THROWS_WITH(load_text(asking, options), ContainsSubstring("GB of memory, but only"));
 }
 
 TEST_CASE("scene files that cannot be read", "[unit][loader]")

@@ -114,7 +114,7 @@ TEST_CASE("every option of a rendering is understood", "[unit][options]")
     CHECK(options.settings.scene.mirrored_view == false);
     CHECK(options.settings.scene.environment_scale == 2.5f);
     CHECK(options.settings.method.instruction_set == "sse4.2");
-    CHECK(options.settings.output.exposure == -1.5f);
+    CHECK(options.settings.output.development.exposure == -1.5f);
     CHECK(options.settings.scene.lenient);
     CHECK(options.quiet);
     CHECK(options.json == "out.json");
@@ -126,7 +126,7 @@ TEST_CASE("words with two meanings are read as one", "[unit][options]")
     CHECK(parse("s.xml --emitters scatter").settings.scene.emitters_absorb == false);
     CHECK(parse("s.xml --mirror on").settings.scene.mirrored_view == true);
     CHECK(parse("s.xml --json -").json == "-");
-    CHECK(parse("s.xml --exposure +2").settings.output.exposure == 2.f);
+    CHECK(parse("s.xml --exposure +2").settings.output.development.exposure == 2.f);
     CHECK(parse("s.xml -t 5").threads == 5);
     CHECK(verb_name("./types").empty());
     CHECK(parse("./types").subject() == "./types");

@@ -114,7 +114,7 @@ TEST_CASE("the contributions in a replay's log add up to the value", "[unit][int
         bool ever_bright = false;
         for (std::uint64_t i = 0; i < 50; ++i) {
             std::vector<PathEvent> log;
-            Tracer logged(scene, &log), silent(scene);
+            Tracer logged(scene, {.log = &log}), silent(scene);
             sampler->start(7, {3, 4}, i);
             const Color value = integrator->radiance(logged, *sampler, ray);
             const Color sum = sum_of(log);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-#include "plumb/experiments/agree.h"
+#include "plumb/experiments/race.h"
 
 #include "plumb/statistics/mean_and_variance.h"
 #include "plumb/statistics/statistics.h"
@@ -96,4 +96,47 @@ TEST_CASE("images without noise have no efficiency", "[unit][race]")
     CHECK_FALSE(efficiency_ratio(noisy, exact));
     CHECK_FALSE(efficiency_ratio(exact, noisy));
     CHECK(efficiency_ratio(noisy, noisy)->value == 1.0);
+}
+
+TEST_CASE("the error of noise is the root of the variance, that of images against a reference of the mean",
+          "[unit][race]")
+{
+    const Rounds rounds = rounds_of({1.0, 1.0, 1.0, 1.0, 1.0}, {{1.0}, {2.0}, {4.0}, {8.0}, {16.0}});
+    const auto spread = rmse_of_spread(rounds);
+    REQUIRE(spread);
+    CHECK(spread->value == Approx(std::sqrt(37.2)));
+    CHECK(spread->low < spread->value);
+    CHECK(spread->high > spread->value);
+    CHECK_FALSE(rmse_of_spread(rounds_of({1.0, 1.0, 1.0}, {{2.0}, {2.0}, {2.0}})));
+
+    const auto error = rmse_of_errors({1.0, 2.0, 3.0, 2.0});
+    REQUIRE(error);
+    CHECK(error->value == Approx(std::sqrt(2.0)));
+    // The jackknife of a mean is its standard error; of half its logarithm, that over twice the mean.
+    const double half = std::log(error->high / error->value);
+    CHECK(half ==
+          Approx(student_t_quantile(0.05, 3.0) * std::sqrt(2.0 / 3.0 / 4.0) / (2.0 * 2.0)).epsilon(0.05));
+    CHECK(std::log(error->value / error->low) == Approx(half));
+    CHECK_FALSE(rmse_of_errors({1.0, -1.0, -2.0})); // below the noise of the reference
+}
+
+TEST_CASE("the interval of an error covers it in 19 of 20 races", "[unit][race]")
+{
+    test::TestRandom random(17);
+    const auto normal = [&] {
+        const double u = 1.0 - random.next_double();
+        return std::sqrt(-2.0 * std::log(u)) * std::cos(2.0 * pi_d * random.next_double());
+    };
+    int covered = 0;
+    constexpr int races = 400;
+    for (int race = 0; race < races; ++race) {
+        std::vector<Values> images(12, Values(20));
+        for (Values& image : images)
+            for (double& value : image) value = 3.0 + 0.5 * normal();
+        const auto error = rmse_of_spread(rounds_of(std::vector<double>(12, 1.0), images));
+        REQUIRE(error);
+        covered += error->low < 0.5 && 0.5 < error->high ? 1 : 0;
+    }
+    CHECK(covered > 360); // 380 expected, with a deviation of 4.4
+    CHECK(covered < 397);
 }

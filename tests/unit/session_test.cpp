@@ -69,7 +69,7 @@ TEST_CASE("a session says what it has to say to callbacks, and goes on to the sa
     RenderSettings others = few_samples();
     others.view.aovs = {"normal"};
     RenderSession with_layers(make_task(file, others), options);
-    CHECK_THROWS_WITH(with_layers.resume(), ContainsSubstring("and --aov asks for"));
+    CHECK_THROWS_WITH(with_layers.resume(), ContainsSubstring("and --aov and --split ask for normal"));
 }
 
 TEST_CASE("what is known of an estimate decides as a header does", "[unit][session]")

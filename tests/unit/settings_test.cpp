@@ -21,12 +21,15 @@ using Examples = std::map<std::string, Texts, std::less<>>;
 
 const Examples render_examples = {
     {"exposure", {"-1.5", "0.1", "3.4e-05"}},
+    {"tonemap", {"filmic", "aces", "agx"}},
+    {"denoise", {"true"}},
     {"no-variance", {"true"}},
     {"spp", {"1", "67108864"}},
     {"seed", {"7", "18446744073709551615"}},
     {"size", {"65535x1", "640x480"}},
     {"crop", {"1,2,3,4"}},
     {"aov", {"normal", "depth,albedo"}},
+    {"split", {"light", "depth:3,technique"}},
     {"integrator", {"path_mis"}},
     {"sampler", {"sobol"}},
     {"time", {"90", "0.1", "5400"}},
@@ -157,7 +160,7 @@ TEST_CASE("the options in a header of Plumb 0.1 are read", "[unit][settings]")
     const RenderSettings settings =
         of_arguments("--exposure -1 --no-variance --spp 4 --seed 7 --crop 1,2,3,4 --time 2h "
                      "--define 'a=b c' --define 'x='\\''' --define $'y=1\\x0a2' --lenient");
-    CHECK(settings.output.exposure == -1.f);
+    CHECK(settings.output.development.exposure == -1.f);
     CHECK_FALSE(settings.output.error_bars);
     CHECK(settings.samples.per_pixel == 4u);
     CHECK(settings.samples.seed == 7);

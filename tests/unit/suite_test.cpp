@@ -163,6 +163,18 @@ TEST_CASE("what is wrong with a suite", "[unit][suite]")
          "suite.xml:1:8: error: two entries write 'a_4.exr'; give one of them another name: <render "
          "name=\"...\" .../>\n"
          "suite.xml:1:8: note: the other one is here"},
+        {"<suite>\n<render name='a' command='x {image} {seed}' replicas='3'/>\n<render name='a_r3' "
+         "image='b.exr'/>\n"
+         "<render name='a_r4' image='b.exr'/></suite>",
+         "suite.xml:3:1: error: two entries write 'a_r3.exr'; give one of them another name: <render "
+         "name=\"...\" .../>\n"
+         "suite.xml:2:1: note: the other one is here"},
+        {"<suite>\n<render name='a_diff' image='b.exr'/>\n<render scene='a.xml' reference='c.exr' spp='4' "
+         "name='b'/>\n"
+         "<render name='a' image='b.exr' reference='c.exr'/><render name='b_4_work' image='b.exr'/></suite>",
+         "suite.xml:2:1: error: two entries write 'a_diff.png'; give one of them another name: <render "
+         "name=\"...\" .../>\n"
+         "suite.xml:4:1: note: the other one is here"},
         {"<suite><render scene='a.xml' refrence='b.exr'/></suite>",
          "suite.xml:1:30: error: unknown attribute 'refrence' for <render>; did you mean 'reference'?"},
         {"<suite><render scene='a.xml' colour='red'/></suite>",

@@ -169,8 +169,11 @@ Comparison compare(const Image& a, const Image& b, const CompareSettings& settin
 // pixels, or if their sizes or channels differ.
 Image mean_of_replicas(const std::vector<Image>& replicas, Side side);
 
-// Marks an image that a file for screens holds (PNG, JPEG): rounded to integers and clipped at 1.
-void mark_for_screens(Image& image);
+// Whether files of that name are made for screens (PNG, JPEG, BMP and the like): values are rounded to integers and clipped
+// at 1. read_to_compare() notes it in the header.
+bool is_low_dynamic_range(const std::filesystem::path& path);
+// Reads an image to be compared. Throws Error naming the file.
+Image read_to_compare(const std::filesystem::path& path);
 
 // The value of a metric by the name that thresholds use. Throws Error if there is none of that name.
 double metric_value(const Metrics& metrics, std::string_view name);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Images in memory and on disk. The pixels live in an OpenImageIO ImageBuf of 32-bit floats; src/image/oiio is its
-// only user.
+// Images in memory and on disk. What reads and writes files is a library of its own, with OpenImageIO or without
+// (src/image/oiio, src/image/lean); a file whose format it lacks is an error.
 //
 // Conventions. Row 0 is the top row. Values are linear light unless a parameter says otherwise.
 
@@ -65,10 +65,10 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-// Reads any format that OpenImageIO reads. Integer formats become value / maximum. decode_srgb makes linear sRGB of what
-// are colours: it undoes the sRGB curve for 8-bit and 16-bit integer formats (floating-point formats are linear), and
-// converts the channels R, G and B of a floating-point format whose attribute `chromaticities` names another colour space.
-// Throws Error naming the file.
+// Reads any format that the image library reads: with OpenImageIO any that that reads, without EXR, PNG, JPEG, HDR, BMP and
+// TGA. Integer formats become value / maximum. decode_srgb makes linear sRGB of what are colours: it undoes the sRGB curve
+// for 8-bit and 16-bit integer formats (floating-point formats are linear), and converts the channels R, G and B of a
+// floating-point format whose attribute `chromaticities` names another colour space. Throws Error naming the file.
 Image read_image(const std::filesystem::path& path, bool decode_srgb);
 
 // An image file of 8-bit integers as it is: rows from the top, 1 or 3 channels (alpha is left out).
@@ -85,6 +85,11 @@ std::optional<ByteImage> read_byte_image(const std::filesystem::path& path);
 // What the 8-bit values stand for: value / 255, through the sRGB curve if asked. The same as read_image gives.
 std::array<float, 256> byte_values(bool decode_srgb);
 
+bool is_jpeg(const std::filesystem::path& path); // by what the file begins with; false if it cannot be read
+
+// What decodes JPEG, with its version: JPEG's decoders may differ in the last bit. Loads the image library.
+std::string jpeg_decoder();
+
 // Channels of a rendered image that do not say how it looks: those of layers, "variance.R" or "normal.X", and "contributing".
 inline bool is_layer_channel(const std::string& name)
 {
@@ -95,17 +100,28 @@ inline bool is_layer_channel(const std::string& name)
 // where it is noisy, and much larger where it is smooth.
 enum class Packing { small, fast };
 
-// Writes by extension: .exr (32-bit float, ZIP or, fast, RLE, data and display window, the chromaticities of sRGB), .hdr, .tif/.tiff (float), .png and .jpg
-// (8-bit sRGB after multiplying by 2^exposure; clamped, rounded). The file appears whole or not at all: it is
+// How light becomes values for a screen (development.h): multiplied by 2^exposure, then through the curve.
+enum class ToneCurve { none, filmic, aces, agx }; // none: what is above 1 is clipped
+struct Development {
+    float exposure = 0.f;
+    ToneCurve curve = ToneCurve::none;
+    friend bool operator==(const Development&, const Development&) = default;
+};
+
+// Writes by extension: .exr (32-bit float, ZIP or, fast, RLE, data and display window, the chromaticities
+// of sRGB), .hdr, .tif/.tiff (float), .png and .jpg (8-bit sRGB, developed and rounded). The file appears whole or not at all: it is
 // written beside `path` and renamed. Metadata goes into formats that can hold it; so do channels of layers, which must be
 // the last ones (.exr only). Same image, same bytes.
-void write_image(const std::filesystem::path& path, const Image& image, float exposure = 0.f,
+void write_image(const std::filesystem::path& path, const Image& image, const Development& development = {},
                  Packing packing = Packing::small);
+
+// Whether the extension is that of a format for screens, to which `development` applies: .png, .jpg and .jpeg.
+bool is_for_screens(const std::filesystem::path& path);
 
 // Throws Error if `path` cannot be written: unknown extension, missing or read-only directory, a directory of that name.
 void check_image_path(const std::filesystem::path& path);
 
-// What images take: OpenImageIO and some 260 libraries below it, which take a quarter of a second to load. The first
+// What images take: with Debian's OpenImageIO some 260 libraries, which take a quarter of a second to load. The first
 // image that is made, read or written waits for them; one of these loads them meanwhile.
 class ImageLibrary {
 public:

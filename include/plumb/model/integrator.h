@@ -29,6 +29,9 @@ public:
     // parameters: "light of more than 5 surface bounces is left out". Empty where it does not.
     virtual std::string bias() const = 0;
 
+    // Whether it notes each contribution to a sample (scene/light_notes.h), so that layers can be of parts of the light.
+    virtual bool notes_light() const { return false; }
+
     // Whether a scene without lamps is black.
     virtual bool needs_lamps() const { return true; }
 };

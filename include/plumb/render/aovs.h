@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// AOVs (arbitrary output variables): what a camera sample sees first, as layers of a film. A new one is a row of the table in
-// aovs.cpp.
+// AOVs (arbitrary output variables): what a camera sample sees first, and what it costs, as layers of a film. A new one is a row
+// of the table in aovs.cpp.
 
 #include "plumb/math/color.h"
 #include "plumb/render/channel_set.h"
@@ -22,6 +22,13 @@ struct SurfacePoint;
 
 struct AovView;
 
+// Of a camera sample.
+struct SampleFacts {
+    const FirstSurfaces& first;
+    Color radiance;
+    std::uint64_t rays = 0; // that it took
+};
+
 struct AovRow {
     Layer layer;
     std::string_view unit; // "scene units"; empty: none
@@ -33,8 +40,8 @@ struct AovRow {
     std::uint32_t (*identify)(const SeenSurface& seen, const AovView& view);
     // Of an id: what the ids from 1 are.
     std::vector<std::string> (*table)(const Scene& scene);
-    // Instead of both: of the light that the sample found, whatever it saw.
-    void (*of_radiance)(const Color& radiance, float* values) = nullptr;
+    // Instead of both: of a sample, whatever it saw.
+    void (*of_sample)(const SampleFacts& sample, float* values) = nullptr;
 };
 std::span<const AovRow> aov_rows();
 // Of all layers: those of the rows, NAME_behind, and variance_of_NAME of each that is no id.
@@ -81,7 +88,7 @@ public:
         std::vector<float> values;
         std::vector<std::uint32_t> ids;
     };
-    LayerSample measure(const FirstSurfaces& first, const Color& radiance, Values& room) const;
+    LayerSample measure(const SampleFacts& sample, Values& room) const;
 
 private:
     struct Wanted {

@@ -4,6 +4,9 @@
 // The named channels that a film has besides beauty: layers, each with its components. "albedo" with the components R, G and B
 // is in files as albedo.R, albedo.G and albedo.B.
 
+#include "plumb/math/color.h"
+
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -19,6 +22,7 @@ enum class LayerKind {
     id,       // of the pixel's first sample, by its index: 0 or an index into a table, from 1
     variance, // of what `mean` gives: estimated as Film::variance_of_mean; not a number below two samples
     variance_of_hits, // of what `mean_of_hits` gives; 0 if no sample has a value, not a number if one has
+    share, // of beauty: those whose names are the same up to the last dot are a family, and add up to beauty
 };
 
 constexpr bool is_of_hits(LayerKind kind)
@@ -52,15 +56,27 @@ using ChannelSet = std::vector<Layer>;
 std::string to_text(const ChannelSet& layers);
 ChannelSet channel_set_from_text(std::string_view text);
 
+// What the layers of one family of shares have in common: "by_depth" of "by_depth.2".
+std::string_view family_of(const Layer& share);
+
 // For people: "albedo, normal"; of nothing "none".
 std::string layer_names(const ChannelSet& layers);
 
-// What one sample has for the layers, in their order: a float for each component of those that are no ids, and an integer for
-// each id.
+// A contribution to a sample, and where it counts.
+inline constexpr std::size_t max_families = 3;
+struct LightShare {
+    Color sum; // of the contributions up to this one; the last one's is the sample's radiance
+    std::array<std::uint32_t, max_families> layers; // one of each family of shares, by its index
+};
+
+// What one sample has for the layers, in their order: a float for each component of those that are neither ids nor shares, and
+// an integer for each id.
 struct LayerSample {
     std::span<const float> values;
     std::span<const std::uint32_t> ids;
     std::uint64_t hits = 0; // a bit for each layer, the first is 1: whether it has a value
+    std::span<const LightShare> shares = {};
+    std::size_t families = 0; // of shares
 };
 
 } // namespace plumb

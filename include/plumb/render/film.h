@@ -68,8 +68,15 @@ public:
     // over n. Unbiased where samples are independent. Not a number, for unknown, below two samples.
     Color variance_of_mean(Vec2i pixel) const;
 
-    // Mean of the accepted samples; black where there is none.
+    // Mean of the accepted samples; black where there is none. The shares of a family, added up in double precision in any
+    // order and rounded to float, are R, G and B: for this, one or two of them differ from the nearest float. Shares that
+    // cancel do so only as far as their last bits allow.
     Image develop(Channels channels = Channels::color) const;
+
+    // The same of the pixels of a part of the window, by rows: R, G, B and the layers of each. No other thread may add to these
+    // pixels meanwhile; to others it may.
+    std::vector<float> develop(const PixelRect& part) const;
+    std::vector<std::string> channel_names() const; // of both: "R", "G", "B", "normal.X" and so on
 
     // Adds what another film of the same window has: the film of all the samples of both, bit for bit. Throws Error, and adds
     // nothing, if their layers differ.

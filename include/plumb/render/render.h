@@ -8,6 +8,7 @@
 #include "plumb/model/integrator.h"
 #include "plumb/model/sampler.h"
 #include "plumb/render/film.h"
+#include "plumb/render/light_split.h"
 #include "plumb/render/sample_set.h"
 #include "plumb/scene/path_event.h"
 #include "plumb/scene/ray_counts.h"
@@ -35,10 +36,11 @@ struct RenderJob {
 struct RenderOptions {
     std::uint64_t samples_per_pixel = 0; // 0: what the scene file says
     std::uint64_t seed = 0;
-    int threads = 0;               // 0: all
-    int tile_size = 32;            // pixels; changes no bit of the image
-    std::optional<PixelRect> crop; // inside the image
-    std::vector<std::string> aovs; // names of layers: aovs.h
+    int threads = 0;                // 0: all
+    int tile_size = 32;             // pixels; changes no bit of the image
+    std::optional<PixelRect> crop;  // inside the image
+    std::vector<std::string> aovs;  // names of layers: aovs.h
+    std::vector<LightSplit> splits; // more layers: light_split.h
 };
 
 // Samples that were left out of the film. `first` is the smallest in the order (row, column, sample index).
@@ -56,7 +58,7 @@ struct LeftOut {
     LeftOut& operator+=(const LeftOut& other);
 };
 
-// What has been rendered so far: enough to make the image of, and to go on from.
+// What has been rendered so far: enough to make the image, and to resume.
 struct RenderState {
     Film film;
     SampleSet taken; // those left out included
@@ -77,12 +79,15 @@ struct Progress {
 };
 // Called from one thread at a time, between tiles.
 using ProgressReport = std::function<void(const Progress&)>;
+// Called from all threads with pixels to which nobody adds meanwhile: Film::develop(part) shows them.
+using TileReport = std::function<void(const Film& film, const PixelRect& part)>;
 // Asked from all threads, for each row of a tile: whether to stop soon.
 using Pause = std::function<bool()>;
 
-// The pixels that the options want of the job's image, and how many samples of each. They throw Error for a crop outside
-// the image and for too many samples.
+// The pixels that the options want of the job's image, which layers, and how many samples of each. They throw Error for a crop
+// outside the image, for layers that the job does not have, and for too many samples.
 PixelRect render_window(const RenderJob& job, const RenderOptions& options);
+ChannelSet render_layers(const RenderJob& job, const RenderOptions& options);
 std::uint64_t render_samples(const RenderJob& job, const RenderOptions& options);
 int render_threads(const RenderOptions& options);
 
@@ -90,15 +95,16 @@ int render_threads(const RenderOptions& options);
 // threads, tiles, crop, or the order and the calls in which they are taken.
 class Rendering {
 public:
-    // Throws what render_window() and Aovs throw, and Error if memory is short.
+    // Throws what render_window() and render_layers() throw, and Error if memory is short.
     Rendering(const RenderJob& job, const RenderOptions& options);
-    // Goes on from a state of the same job, seed and window. Throws Error if it does not have the layers of options.aovs.
+    // Resumes from a state of the same job, seed and window. Throws Error if it does not have the layers of the options.
     Rendering(const RenderJob& job, const RenderOptions& options, RenderState state);
     Rendering(const Rendering&) = delete;
     Rendering& operator=(const Rendering&) = delete;
 
     // Takes what has not been taken of the wanted samples, until pause says so. Whether all of them are taken now.
-    bool take(const SampleSet& wanted, const ProgressReport& progress = {}, const Pause& pause = {});
+    bool take(const SampleSet& wanted, const ProgressReport& progress = {}, const Pause& pause = {},
+              const TileReport& tile = {});
 
     const RenderState& state() const { return state_; }
     RenderState finish() && { return std::move(state_); }

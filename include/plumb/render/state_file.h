@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Renderings on disk, to go on from: checkpoints, and the parts that machines render for one image.
+// Renderings on disk, to resume from: checkpoints, and the parts that machines render for one image.
 //
 // A state file is an .exr that any viewer shows. R, G and B are the image as far as it is; the other channels are
 // the film's words (film.h), 32-bit integers: sum.R.0 (the lowest) to squares.B.3, count and contributing, and large.R.0 to
@@ -33,7 +33,7 @@ struct StateFile {
     Vec2i resolution;
 };
 
-// Throws Error, "cannot go on from 'PATH': " and the reason.
+// Throws Error, "cannot resume from 'PATH': " and the reason.
 StateFile read_state(const std::filesystem::path& path);
 
 // The caller's header of the file alone, unchecked; nothing if it is no state file.

@@ -22,6 +22,7 @@ enum class StopReason { all_samples, time_limit, target_error, interrupted };
 
 struct SessionCallbacks {
     std::function<void(const Progress&)> progress = {}; // from one thread at a time
+    TileReport tile = {}; // from all threads: pixels with more samples than before
     // What does not end the rendering: warnings ("a damaged checkpoint was skipped") and notes.
     std::function<void(const Diagnostic&)> message = {};
     // Read from all threads, for each row of a tile; a signal handler may set it.
@@ -65,7 +66,7 @@ public:
     RenderSession& operator=(const RenderSession&) = delete;
     ~RenderSession();
 
-    // Goes on from the checkpoint, or from the one before if that is damaged; false: there is neither. Throws Error if it is of
+    // Resumes from the checkpoint, or from the one before if that is damaged; false: there is neither. Throws Error if it is of
     // another work, with what has changed.
     bool resume();
     // Takes samples until all are taken, a rule says so or somebody stops it; then it may be called again. Writes checkpoints

@@ -25,7 +25,7 @@ struct RenderTask {
 // The layers of the settings, then those of the scene's file that are not among them.
 std::vector<std::string> aovs_of(const ViewSettings& view, const LoadedScene& scene);
 
-// settings: those of the scene are the file's. Throws what SceneFile::load() throws.
+// Denoising adds the layers that it needs. settings: those of the scene are the file's. Throws what SceneFile::load() throws.
 RenderTask make_task(SceneFile& file, const RenderSettings& settings);
 
 } // namespace plumb

@@ -31,8 +31,14 @@ struct Work {
     SampleSet missing() const;
 };
 
+struct MergeOptions {
+    // Whether parts may be of processors of different vendors, whose Embree rounds some hits differently: the bits are then
+    // those of no single machine. The header names all vendors: "AuthenticAMD, GenuineIntel".
+    bool mixed_processors = false;
+};
+
 // In any order; one at least. Throws Error: which two files are not parts of one image, or have samples in common, and why.
-Work merge_parts(std::span<const std::filesystem::path> files);
+Work merge_parts(std::span<const std::filesystem::path> files, const MergeOptions& options = {});
 
 // "5.12 k of 10.2 k samples are missing (part 3/8 by tiles), the first of them at ..."; empty: none is.
 std::string missing_text(const Work& work);

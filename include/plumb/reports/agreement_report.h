@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What agree() and race() found, for people and as JSON.
+// What agree() found, for people and as JSON.
 
 #include "plumb/experiments/agree.h"
 
@@ -12,7 +12,5 @@ namespace plumb {
 // scene: its file, as it was given.
 std::string agreement_text(const std::string& scene, const Agreement& agreement);
 std::string agreement_json(const std::string& scene, const Agreement& agreement, const CompareSettings& how);
-std::string race_text(const std::string& scene, const RaceResult& race);
-std::string race_json(const std::string& scene, const RaceResult& race, const CompareSettings& how);
 
 } // namespace plumb

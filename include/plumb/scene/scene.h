@@ -67,8 +67,10 @@ struct SceneMemory {
 class Scene {
 public:
     // lights: the emitters that no shape carries. Builds the acceleration structure; throws Error if Embree cannot.
+    // light_names: for people; those that are missing have numbers.
     Scene(std::vector<SceneObject> objects, std::vector<std::unique_ptr<Emitter>> lights,
-          const SceneOptions& options = {}, std::vector<Instance> instances = {});
+          const SceneOptions& options = {}, std::vector<Instance> instances = {},
+          std::vector<std::string> light_names = {});
     Scene(Scene&&) noexcept;
     Scene& operator=(Scene&&) noexcept;
     ~Scene();
@@ -102,7 +104,8 @@ public:
     bool has_null_surfaces() const { return has_null_surfaces_; } // light passes straight through them
     bool has_delta_emitters() const { return delta_choice_.can_sample(); }
     bool emitters_absorb() const { return options_.emitters_absorb; }
-    const std::vector<const Emitter*>& emitters() const { return emitters_; } // all, in document order
+    const std::vector<const Emitter*>& emitters() const { return emitters_; }        // all, in document order
+    const std::vector<std::string>& emitter_names() const { return emitter_names_; } // of those, for people
     const std::vector<SceneObject>& objects() const { return objects_; }
     const std::vector<Instance>& instances() const { return instances_; }
     std::vector<const Group*> groups() const; // those of the instances, each once, in their order
@@ -140,8 +143,9 @@ private:
     std::vector<Instance> instances_; // whose addresses points have
     std::vector<std::unique_ptr<Emitter>> lights_;
     std::vector<const Emitter*> emitters_; // those of objects_, then lights_
-    std::vector<ObjectFacts> facts_;       // of objects_
-    std::vector<std::uint32_t> infinite_;  // indices of infinite, not delta emitters
+    std::vector<std::string> emitter_names_;
+    std::vector<ObjectFacts> facts_;      // of objects_
+    std::vector<std::uint32_t> infinite_; // indices of infinite, not delta emitters
     LightTree choice_;
     LightTree delta_choice_; // among delta emitters alone
     bool has_null_surfaces_ = false;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// One thread's view of the scene: it traces rays, counts them by kind, and on demand notes what a camera sample sees first and,
-// for `renderer replay`, keeps a log.
+// One thread's view of the scene: it traces rays, counts them by kind, and on demand notes what a camera sample sees first and
+// how it finds its light and, for `renderer replay`, keeps a log.
 
+#include "plumb/scene/light_notes.h"
 #include "plumb/scene/path_event.h"
 #include "plumb/scene/ray_counts.h"
 #include "plumb/scene/scene.h"
@@ -40,10 +41,20 @@ private:
 
 class Tracer {
 public:
-    // log, first: where the path and the first surfaces of each sample are to be noted; null: nowhere.
-    explicit Tracer(const Scene& scene, std::vector<PathEvent>* log = nullptr, FirstSurfaces* first = nullptr)
-        : scene_(scene), log_(log), first_(first), watched_(log || first)
+    // Where the path, the first surfaces and the contributions of each sample are to be noted; null: nowhere.
+    struct Notes {
+        std::vector<PathEvent>* log = nullptr;
+        FirstSurfaces* first = nullptr;
+        LightNotes* light = nullptr;
+    };
+    explicit Tracer(const Scene& scene, const Notes& notes)
+        : scene_(scene),
+          log_(notes.log),
+          first_(notes.first),
+          light_(notes.light),
+          watched_(log_ || first_ || light_)
     {}
+    explicit Tracer(const Scene& scene) : Tracer(scene, Notes()) {}
 
     const Scene& scene() const { return scene_; }
     const RayCounts& counts() const { return counts_; }
@@ -86,6 +97,22 @@ public:
     // Whether anything is noted. One test when nobody asks.
     bool watched() const { return watched_; }
     FirstSurfaces* first_surfaces() const { return first_; }
+    LightNotes* light_notes() const { return light_; }
+    // Notes a contribution, where somebody asks. sum: with it, as in LightNote.
+    void note_light(const Color& sum, FoundBy by, std::uint32_t emitter)
+    {
+        if (light_) [[unlikely]]
+            light_->add({sum, by, emitter});
+    }
+    // How many there are so far.
+    std::size_t noted_light() const { return light_ ? light_->count() : 0; }
+    // LightNotes::change_sums(), likewise.
+    template <class Map>
+    void change_noted_light(std::size_t first, const Map& map)
+    {
+        if (light_) [[unlikely]]
+            light_->change_sums(first, map);
+    }
     bool logging() const { return log_ != nullptr; }
     void log(PathEvent::Kind kind, std::string text);
     // A contribution to the pixel: what it is, and throughput times value.
@@ -105,6 +132,7 @@ private:
     bool failed_ = false;
     std::vector<PathEvent>* log_;
     FirstSurfaces* first_;
+    LightNotes* light_;
     bool watched_;
 };
 

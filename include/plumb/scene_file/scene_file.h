@@ -25,6 +25,7 @@ inline constexpr int language_version = 2;
 struct InputFile {
     std::filesystem::path path;
     std::string hash;
+    bool is_jpeg = false; // by what it begins with
 };
 
 // A scene with a method and a view. Cheap to copy: what is large is shared.

@@ -6,6 +6,7 @@
 
 #include "plumb/image/image.h"
 #include "plumb/model/dialect.h"
+#include "plumb/render/light_split.h"
 #include "plumb/scene/instruction_set.h"
 #include "plumb/settings/settings.h"
 
@@ -38,7 +39,8 @@ struct MethodSettings {
 struct ViewSettings {
     std::optional<Vec2i> size = {}; // pixels
     std::optional<PixelRect> crop = {};
-    std::vector<std::string> aovs = {}; // names of layers: aovs.h
+    std::vector<std::string> aovs = {};  // names of layers: aovs.h
+    std::vector<LightSplit> splits = {}; // more layers: light_split.h
     friend bool operator==(const ViewSettings&, const ViewSettings&) = default;
 };
 
@@ -56,8 +58,9 @@ struct StopSettings {
 };
 
 struct OutputSettings {
-    float exposure = 0.f;   // multiplies .png and .jpg by a power of 2
-    bool error_bars = true; // .exr files also have the variance of each pixel
+    Development development = {}; // of .png and .jpg
+    bool denoise = false;         // .png and .jpg; adds layers to the image
+    bool error_bars = true;       // .exr files also have the variance of each pixel
     friend bool operator==(const OutputSettings&, const OutputSettings&) = default;
 };
 

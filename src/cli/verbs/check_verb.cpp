@@ -10,7 +10,6 @@
 #include "base/visible_text.h"
 
 #include "plumb/check/check.h"
-#include "plumb/render/aovs.h"
 
 #include <fmt/format.h>
 
@@ -31,11 +30,11 @@ void settle(Options& options)
 constexpr double megabyte = 1e6;
 
 // What the scene has taken so far, and what film and image will.
-MemoryNeeds memory_needs(const LoadedScene& scene, const std::vector<std::string>& aovs)
+MemoryNeeds memory_needs(const RenderTask& task)
 {
     const auto now = static_cast<double>(peak_memory());
-    const Vec2i size = scene.job.camera->resolution();
-    const ChannelSet layers = layers_of(aovs);
+    const Vec2i size = task.scene.job.camera->resolution();
+    const ChannelSet layers = render_layers(task.scene.job, task.options);
     std::size_t channels = 7; // of colour and its evidence
     for (const Layer& layer : layers) channels += layer.components.size();
     const double later = static_cast<double>(size.x) * static_cast<double>(size.y) *
@@ -52,7 +51,7 @@ int run(const Options& options)
     const LoadedScene& scene = task.scene;
     if (!options.quiet) log_scene(task, options.verbose);
     ImageLibrary::hash(); // is loaded, since rendering takes its memory, too
-    const MemoryNeeds memory = memory_needs(scene, task.options.aovs);
+    const MemoryNeeds memory = memory_needs(task);
     const std::vector<Doubt> doubts = find_doubts(scene.job);
     const bool is_clean = doubts.empty() && scene.warnings.empty();
     write_json(options.json, check_json(task, doubts, memory));
@@ -89,7 +88,7 @@ OptionTable<Options> table()
 {
     return join<Options>(
         {json_option<Options>(),
-         setting_options<Options>(Topic::image, &Options::settings, {"size", "aov", "integrator"}),
+         setting_options<Options>(Topic::image, &Options::settings, {"size", "aov", "split", "integrator"}),
          scene_options<Options>(), setting_options<Options>(Topic::running, &Options::settings, {"isa"}),
          quiet_option<Options>(), verbose_option<Options>(), help_option<Options>()});
 }

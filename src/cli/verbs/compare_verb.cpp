@@ -3,7 +3,6 @@
 #include "cli/outputs.h"
 #include "cli/verb_file.h"
 
-#include "base/lower_case.h"
 #include "base/visible_text.h"
 #include "plumb/reports/comparison_report.h"
 #include "rendering/output_files.h"
@@ -23,24 +22,12 @@ struct Options : VerbOptions {
     std::vector<std::string> a, b;
 };
 
-// Made for screens: no values above 1.
-bool is_low_dynamic_range(const std::vector<std::string>& paths)
-{
-    const std::string extension = lower_case(std::filesystem::path(paths.front()).extension().string());
-    return extension == ".png" || extension == ".jpg" || extension == ".jpeg" || extension == ".bmp" ||
-           extension == ".tga" || extension == ".gif" || extension == ".ppm";
-}
-
 // One image, or the mean of several.
 Image read_side(const std::vector<std::string>& paths, Side side)
 {
-    if (paths.size() == 1) {
-        Image image = read_image(paths.front(), true);
-        if (is_low_dynamic_range(paths)) mark_for_screens(image);
-        return image;
-    }
+    if (paths.size() == 1) return read_to_compare(paths.front());
     std::vector<Image> replicas;
-    for (const std::string& path : paths) replicas.push_back(read_image(path, true));
+    for (const std::string& path : paths) replicas.push_back(read_to_compare(path));
     return mean_of_replicas(replicas, side);
 }
 
@@ -84,8 +71,9 @@ int run(const Options& options)
     if (!how.flip && !how.layer.empty())
         how.flip = FlipMode::none; // numbers, no colours
     else if (!how.flip)
-        how.flip = is_low_dynamic_range(options.a) && is_low_dynamic_range(options.b) ? FlipMode::ldr
-                                                                                      : FlipMode::hdr;
+        how.flip = is_low_dynamic_range(options.a.front()) && is_low_dynamic_range(options.b.front())
+                       ? FlipMode::ldr
+                       : FlipMode::hdr;
     const Comparison comparison = compare(a, b, how);
     if (!options.difference.empty())
         write_image(options.difference,

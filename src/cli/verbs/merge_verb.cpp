@@ -18,6 +18,7 @@ struct Options : VerbOptions {
     std::string json;
     std::string checkpoint;     // the sum as a part; empty: none
     bool allow_missing = false; // make the image although samples are missing
+    bool mixed = false;         // parts of Intel's and AMD's processors
 };
 
 void settle(Options& options)
@@ -39,15 +40,16 @@ int run(const Options& options)
     check_outputs(written, options.json);
     KeptFiles(parts).refuse(with_json(written, options.json), "it is a part to be merged");
 
-    const Work work = merge_parts(parts);
+    const Work work = merge_parts(parts, {.mixed_processors = options.mixed});
+    check_denoising(options.outputs, work.settings.output);
     const std::string complaint = missing_text(work);
     if (!complaint.empty() && !options.outputs.empty() && !options.allow_missing)
         throw Error(complaint + "; pass --allow-missing to merge without them");
     if (!checkpoint.empty()) save_work(work, checkpoint);
     if (!options.outputs.empty()) {
         const Evidence evidence = evidence_of(work);
-        write_images(options.outputs, image_of(work, evidence), work.settings.output.exposure,
-                     packing_of(evidence), parts.front().parent_path());
+        write_images(options.outputs, image_of(work, evidence), work.settings.output, packing_of(evidence),
+                     parts.front().parent_path());
     }
     write_json(options.json, work_json(work, options.outputs, checkpoint));
     if (options.quiet) return exit_code::done;
@@ -66,7 +68,9 @@ it is complete, resume it. The checkpoint of an unfinished rendering is a part
 as well.
 Parts of different scenes, settings, programs (rebuilt ones, too) or
 instruction sets are errors; so are duplicate samples, and missing samples
-without --allow-missing.
+without --allow-missing. Parts of processors of different vendors are merged
+with --mixed only: Embree rounds some hits differently there, so the bits are
+those of no single machine. The header names all vendors.
 )";
 
 OptionTable<Options> table()
@@ -75,6 +79,10 @@ OptionTable<Options> table()
         {outputs_option<Options>(), json_option<Options>(), checkpoint_option<Options>(),
          switch_option<Options>(Topic::state, "--allow-missing", "merge even if samples are missing",
                                 &Options::allow_missing),
+         switch_option<Options>(
+             Topic::state, "--mixed",
+             "merge parts of Intel's and AMD's processors, without\nthe promise of equal bits",
+             &Options::mixed),
          quiet_option<Options>(), help_option<Options>()});
 }
 

@@ -11,6 +11,7 @@ namespace {
 struct Options : VerbOptions {
     RenderSettings settings;
     std::vector<std::string> outputs;
+    LiveOptions live;
     std::string json;
     std::string checkpoint;
     double checkpoint_seconds = 60.0;
@@ -19,6 +20,23 @@ struct Options : VerbOptions {
     std::optional<PartBy> part_by; // as given; settled in part
     int threads = 0;
 };
+
+// Settings of files for screens need one. A part hands them on to `renderer merge`.
+void check_screen_settings(const Options& options)
+{
+    const OutputSettings& output = options.settings.output;
+    const bool has_some = output.development != Development() || output.denoise;
+    if (!has_some || options.part || options.outputs.empty() ||
+        std::any_of(options.outputs.begin(), options.outputs.end(),
+                    [](const std::string& file) { return is_for_screens(file); }))
+        return;
+    if (output.denoise)
+        throw UsageError(
+            "--denoise changes .png and .jpg files, and none is written; add -o FILE.png, or use "
+            "'renderer denoise' later");
+    throw UsageError("--exposure and --tonemap change .png and .jpg files, and none is written; add -o "
+                     "FILE.png, or develop the image later with 'renderer view'");
+}
 
 // A part is no image yet: its output is the state file. What goes with what.
 void settle(Options& options)
@@ -35,6 +53,7 @@ void settle(Options& options)
                 "a part is a fixed set of samples: use --part with --spp, not with --time or --target-error");
         options.checkpoint = options.outputs.front();
     }
+    check_screen_settings(options);
     if (options.resume && options.checkpoint.empty()) throw UsageError("--resume needs --checkpoint FILE");
     if (!options.checkpoint.empty() && !options.checkpoint.ends_with(".exr"))
         throw UsageError(
@@ -52,6 +71,7 @@ int run(const Options& options)
                           options.json,
                           options.resume,
                           options.quiet,
+                          options.live,
                           options.typed};
     check_flow(flow);
     auto file = open_scene(options.subject(), options.settings.scene);
@@ -91,11 +111,12 @@ OptionTable<Options> table()
 {
     return join<Options>(
         {outputs_option<Options>(),
-         setting_options<Options>(Topic::output, &Options::settings, {"exposure", "no-variance"}),
-         json_option<Options>(), state_options(),
-         setting_options<Options>(
-             Topic::image, &Options::settings,
-             {"spp", "seed", "size", "crop", "aov", "integrator", "sampler", "time", "target-error"}),
+         setting_options<Options>(Topic::output, &Options::settings,
+                                  {"exposure", "tonemap", "denoise", "no-variance"}),
+         live_options(&Options::live), json_option<Options>(), state_options(),
+         setting_options<Options>(Topic::image, &Options::settings,
+                                  {"spp", "seed", "size", "crop", "aov", "split", "integrator", "sampler",
+                                   "time", "target-error"}),
          scene_options<Options>(), threads_option<Options>(),
          setting_options<Options>(Topic::running, &Options::settings, {"isa"}), quiet_option<Options>(),
          verbose_option<Options>(),

@@ -13,6 +13,7 @@ namespace {
 
 struct Options : VerbOptions {
     std::vector<std::string> outputs;
+    LiveOptions live;
     std::string json;
     std::string scene; // where its scene file lies now; empty: where it was
     int threads = 0;
@@ -41,6 +42,7 @@ int run(const Options& options)
     flow.outputs = options.outputs;
     flow.json = options.json;
     flow.quiet = options.quiet;
+    flow.live = options.live;
     return run_flow(task, flow);
 }
 
@@ -54,7 +56,7 @@ changed, the error names it.
 OptionTable<Options> table()
 {
     return join<Options>(
-        {outputs_option<Options>(), json_option<Options>(),
+        {outputs_option<Options>(), live_options(&Options::live), json_option<Options>(),
          text_option<Options>(Topic::scene, "--scene", "FILE", "the path of the scene file", &Options::scene),
          threads_option<Options>(), quiet_option<Options>(), verbose_option<Options>(),
          help_option<Options>()});

@@ -6,6 +6,7 @@
 #include "plumb/scene_file/scene_file.h"
 #include "reports/exit_codes.h"
 #include "reports/facts_json.h"
+#include "reports/type_summary.h"
 #include "scene_file/catalog.h"
 #include "scene_file/element_manuals.h"
 #include "scene_file/foreign_names.h"
@@ -21,15 +22,6 @@ namespace plumb {
 
 namespace {
 
-// In one line, however many it has in the manual.
-std::string first_sentence(std::string_view manual)
-{
-    std::string text(manual.substr(0, manual.find("\n\n")));
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    text.erase(text.find_last_not_of(' ') + 1); // npos + 1 is 0
-    return text.substr(0, text.find(". ")) + (text.find(". ") == std::string::npos ? "" : ".");
-}
-
 // The types of a kind, or all of them below their kinds.
 void print_list(std::string_view only = {})
 {
@@ -40,7 +32,7 @@ void print_list(std::string_view only = {})
         if (!only.empty() && type.kind != only) continue;
         if (type.kind != kind) print_output(fmt::format("{}{}\n", kind.empty() ? "" : "\n", type.kind));
         kind = type.kind;
-        print_output(fmt::format("  {:<{}}  {}\n", type.name, width, first_sentence(type.manual)));
+        print_output(fmt::format("  {:<{}}  {}\n", type.name, width, summary_of(type.manual)));
     }
 }
 

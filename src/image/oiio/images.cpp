@@ -2,6 +2,9 @@
 
 // Images in memory, reading and encoding them.
 
+#include "base/lower_case.h"
+#include "image/hdr.h"
+#include "image/image_limits.h"
 #include "image/image_text.h"
 #include "image/oiio/module.h"
 #include "image/oiio/quiet.h"
@@ -9,23 +12,12 @@
 #include "plumb/base/error.h"
 
 #include <OpenImageIO/imagebuf.h>
-#include <fmt/format.h>
 
 #include <new>
 
 namespace plumb {
 
 namespace {
-
-void check_size(const PixelRect& data, std::size_t channels)
-{
-    // Far more than any memory, and far from overflow.
-    constexpr double most_floats = 0x1p40;
-    const double floats = double(data.width) * double(data.height) * double(channels);
-    if (data.width < 1 || data.height < 1 || channels < 1 || floats > most_floats)
-        throw Error(fmt::format("an image cannot have {} x {} pixels of {} channels", data.width, data.height,
-                                channels));
-}
 
 class Buffer final : public PixelBuffer {
 public:
@@ -38,9 +30,7 @@ public:
             pixels_ = nullptr;
         }
         buffer_.geterror(); // else it would be printed
-        if (!pixels_)
-            throw Error(
-                fmt::format("not enough memory for an image of {} x {} pixels", spec.width, spec.height));
+        if (!pixels_) throw not_enough_memory({0, 0, spec.width, spec.height});
     }
     float* pixels() override { return pixels_; }
 
@@ -60,6 +50,7 @@ OIIO::ImageSpec spec_of(const ImageFile& image)
     spec.full_width = image.full_width;
     spec.full_height = image.full_height;
     put_metadata(spec, image.metadata);
+    if (image.bytes) spec.attribute("oiio:UnassociatedAlpha", 1); // colours as they are, not divided by alpha
     for (const auto& [name, value] : image.format) spec.attribute(name, std::get<std::string>(value));
     return spec;
 }
@@ -82,6 +73,7 @@ std::unique_ptr<PixelBuffer> OiioModule::make_buffer(const PixelRect& data, int 
 
 DecodedImage OiioModule::read(const std::string& name) const
 {
+    if (is_hdr(name)) return read_hdr(*this, name);
     const QuietStandardError quiet;
     const std::unique_ptr<OIIO::ImageInput> input = open_image(name);
     const OIIO::ImageSpec spec = input->spec();
@@ -123,8 +115,25 @@ std::optional<ByteImage> OiioModule::read_bytes(const std::string& name) const
     return image;
 }
 
+void OiioModule::check_written_format(const std::string&) const {} // it has all that Plumb writes
+
+std::string OiioModule::jpeg_decoder() const
+{
+    // "jpeg:jpeg-turbo 2.1.2/jp62;png:libpng 1.6.39;..."
+    constexpr std::string_view name = "jpeg:";
+    const std::string libraries = OIIO::get_string_attribute("library_list");
+    for (std::size_t begin = 0; begin < libraries.size();) {
+        const std::size_t end = std::min(libraries.find(';', begin), libraries.size());
+        const std::string library = libraries.substr(begin, end - begin);
+        if (library.starts_with(name)) return library.substr(name.size());
+        begin = end + 1;
+    }
+    return "OpenImageIO " OIIO_VERSION_STRING;
+}
+
 std::vector<unsigned char> OiioModule::encode(const ImageFile& image) const
 {
+    if (lower_case(std::filesystem::path(image.name).extension().string()) == ".hdr") return write_hdr(image);
     return encode_image(image.name, spec_of(image), [&](OIIO::ImageOutput& output) {
         if (image.bytes) return output.write_image(OIIO::TypeUInt8, image.bytes);
         const auto stride = static_cast<OIIO::stride_t>(sizeof(float)) * image.floats_per_pixel;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What libplumb_images.so does: images.cpp and words.cpp.
+// libplumb_images.so by OpenImageIO: images.cpp and words.cpp.
 
 #include "image/image_module.h"
 
@@ -14,9 +14,11 @@ public:
                                              bool clear) const override;
     DecodedImage read(const std::string& name) const override;
     std::optional<ByteImage> read_bytes(const std::string& name) const override;
+    void check_written_format(const std::string& name) const override;
     std::vector<unsigned char> encode(const ImageFile& image) const override;
     std::vector<unsigned char> encode_words(const WordImage& image, const FillRows& fill) const override;
     void read_words(const std::string& name, const ChooseChannels& choose, const UseRow& use) const override;
+    std::string jpeg_decoder() const override;
 };
 
 } // namespace plumb

@@ -2,13 +2,12 @@
 
 #include "image/oiio/spec.h"
 
-#include "image/image_module.h"
+#include "image/image_limits.h"
 #include "image/image_text.h"
 #include "image/oiio/quiet.h"
 #include "plumb/base/error.h"
 
 #include <OpenImageIO/filesystem.h>
-#include <fmt/format.h>
 
 namespace plumb {
 
@@ -24,17 +23,8 @@ std::unique_ptr<OIIO::ImageInput> open_image(const std::string& name)
 
 PixelRect data_window_of(const OIIO::ImageSpec& spec)
 {
-    // OpenImageIO computes with ints, and of pixels close to the largest it says that they were read when they were not.
-    constexpr int farthest = farthest_pixel / 2;
-    for (const int place : {spec.x, spec.y, spec.full_x, spec.full_y})
-        if (place < -farthest || place > farthest)
-            throw Error(fmt::format(
-                "its pixels are too far from the image's corner: at {},{}, and the image at {},{}", spec.x,
-                spec.y, spec.full_x, spec.full_y));
-    for (const int size : {spec.width, spec.height, spec.full_width, spec.full_height})
-        if (size > farthest)
-            throw Error(fmt::format("it is too large: {} x {} pixels", spec.width, spec.height));
-    return {spec.x - spec.full_x, spec.y - spec.full_y, spec.width, spec.height};
+    return seen_from_corner({spec.x, spec.y, spec.width, spec.height},
+                            {spec.full_x, spec.full_y, spec.full_width, spec.full_height});
 }
 
 Metadata metadata_of(const OIIO::ImageSpec& spec)

@@ -6,7 +6,8 @@
     verdict = plumb.compare(image, "reference.exr")
     assert verdict, verdict.text
 
-The program is the one that the environment variable PLUMB_RENDERER names, else `renderer` in PATH.
+The program is the one that the environment variable PLUMB_RENDERER names, else the one in this package, if it is a wheel's,
+else `renderer` in PATH.
 """
 
 from .comparison import Verdict, compare

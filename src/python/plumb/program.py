@@ -14,9 +14,15 @@ SCHEMA = 1  # of the program's JSON: docs/json.md
 USAGE = 2  # exit code
 
 
+IN_PACKAGE = Path(__file__).resolve().parent / "bin" / "renderer"  # of a wheel
+
+
 def find_renderer():
-    """The program's path. Raises Error if there is none."""
+    """The program's path: what PLUMB_RENDERER names, else the one in this package, else `renderer` in PATH. Raises Error if
+    there is none."""
     named = os.environ.get("PLUMB_RENDERER")
+    if not named and os.access(IN_PACKAGE, os.X_OK):
+        return str(IN_PACKAGE)
     found = shutil.which(named or "renderer")
     if found is None:
         raise Error([Diagnostic(f"there is no program '{named or 'renderer'}'",
