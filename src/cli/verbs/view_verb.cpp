@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cli/console.h"
-#include "cli/development.h"
+#include "cli/development_options.h"
 #include "cli/outputs.h"
 #include "rendering/output_files.h"
 #include "reports/exit_codes.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cli/development.h"
+#include "cli/development_options.h"
 
 #include "plumb/base/error.h"
 #include "plumb/settings/settings_header.h"
