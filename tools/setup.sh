@@ -96,8 +96,8 @@ tree_files() (
 build_directory() {
     case $1 in
         release) printf '%s\n' "$plumb_root/build" ;;
-        dev | debug | asan | arm64 | fuzz | coverage) printf '%s\n' "$plumb_root/build-$1" ;;
-        *) die "unknown preset '$1': release, dev, debug, asan, arm64, fuzz or coverage" ;;
+        dev | lean | debug | asan | arm64 | fuzz | coverage) printf '%s\n' "$plumb_root/build-$1" ;;
+        *) die "unknown preset '$1': release, dev, lean, debug, asan, arm64, fuzz or coverage" ;;
     esac
 }
 

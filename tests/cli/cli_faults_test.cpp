@@ -127,7 +127,7 @@ TEST_CASE("too little memory is an error wherever it is met", "[cli][faults]")
 {
     const SceneDirectory directory;
     int failures = 0;
-    for (int megabytes = 500; megabytes <= 1200; megabytes += 100) {
+    for (int megabytes = 100; megabytes <= 1200; megabytes += megabytes < 300 ? 20 : 100) {
         const RunResult result = run_limited(directory, "ulimit -v " + std::to_string(megabytes * 1000),
                                              {"scene.xml", "-o", "a.exr", "--size", "1500x1000", "--crop",
                                               "0,0,1500,10", "--spp", "1", "--quiet", "--threads", "1"});

@@ -33,11 +33,11 @@ struct Parameter {
 
 const Parameter parameters[] = {
     {"filename", "Data/square.obj", "<mesh type='obj'><string name='filename' value='", "'/></mesh>"},
-    {"filepath", "Data/dots.ppm",
+    {"filepath", "Data/dots.hdr",
      "<mesh type='sphere'><bsdf type='diffuse'><texture type='imagetexture_color3f' name='albedo'><string "
      "name='filepath' value='",
      "'/></texture></bsdf></mesh>"},
-    {"filename", "Data/dots.ppm", "<emitter type='environment'><string name='filename' value='",
+    {"filename", "Data/dots.hdr", "<emitter type='environment'><string name='filename' value='",
      "'/></emitter>"},
     {"", "Data/part.xml", "<include filename='", "'/>"},
 };
@@ -48,7 +48,7 @@ struct Files : TempDirectory {
     {
         write(below + "Data/square.obj", square);
         write(below + "Data/part.xml", part);
-        write(below + "Data/dots.ppm", std::string("P6 2 2 255\n") + std::string(12, 'z'));
+        write(below + "Data/dots.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 2\n" + std::string(16, 'z'));
     }
     RunResult check(const Parameter& parameter, const std::string& name) const
     {
