@@ -48,7 +48,8 @@ struct Files : TempDirectory {
     {
         write(below + "Data/square.obj", square);
         write(below + "Data/part.xml", part);
-        write(below + "Data/dots.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 2\n" + std::string(16, 'z'));
+        write(below + "Data/dots.hdr",
+              "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 2\n" + std::string(16, 'z'));
     }
     RunResult check(const Parameter& parameter, const std::string& name) const
     {
