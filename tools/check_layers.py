@@ -7,6 +7,8 @@
 
 1. Layers: a file includes its own layer or a lower one.
 2. One door: each third-party library is included by the file or files that wrap it, and nowhere else.
+3. One type of a name: outside of unnamed namespaces, two types of one name are one to the linker, which takes the functions
+   of either.
 
 The check prints `file:line: message` for each violation, and exits with 1 if there is one.
 """
@@ -111,6 +113,22 @@ def check_file(root, path):
             yield number, f"'{room_of(path)}' may not include '{name}' of the higher layer '{room_of(target)}'"
 
 
+UNNAMED = re.compile(r"^namespace \{.*?^\} // namespace$", re.MULTILINE | re.DOTALL)
+TYPE = re.compile(r"^(?:class|struct|enum class) (\w+)(?: final)?(?: : [^\n;{]*)?\s*\{", re.MULTILINE)
+
+
+def check_names(root, files):
+    """(path, line, message) for each type whose name another file has, too."""
+    first = {}
+    for path in files:
+        text = (root / path).read_text(encoding="utf-8")
+        text = UNNAMED.sub(lambda match: "\n" * match.group(0).count("\n"), text)
+        for match in TYPE.finditer(text):
+            other = first.setdefault(match.group(1), path)
+            if other != path:
+                yield path, text.count("\n", 0, match.start()) + 1, f"'{match.group(1)}' is also a type of {other}"
+
+
 def includes_between_rooms(root, files):
     """How many includes point from one room to another: {(from, to): count}."""
     counts = {}
@@ -180,6 +198,9 @@ def main(arguments):
         for number, message in check_file(root, path):
             print(f"{path}:{number}: {message}")
             violations += 1
+    for path, number, message in check_names(root, files):
+        print(f"{path}:{number}: {message}")
+        violations += 1
     if violations:
         print(f"check_layers: {violations} violation(s) in {len(files)} files", file=sys.stderr)
     return 1 if violations else 0

@@ -5,7 +5,7 @@
 
 namespace plumb {
 
-FileBytes::FileBytes(const std::string& name)
+ImageFileBytes::ImageFileBytes(const std::string& name)
 {
     const RegularFile file(name);
     size_ = static_cast<std::size_t>(file.size());

@@ -15,9 +15,9 @@ namespace plumb {
 
 using Bytes = std::span<const unsigned char>;
 
-class FileBytes {
+class ImageFileBytes {
 public:
-    explicit FileBytes(const std::string& name); // throws Error
+    explicit ImageFileBytes(const std::string& name); // throws Error
     Bytes all() const { return {bytes_.get(), size_}; }
 
 private:

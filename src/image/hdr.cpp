@@ -181,7 +181,7 @@ bool is_hdr(const std::string& name)
 
 DecodedImage read_hdr(const ImageModule& module, const std::string& name)
 {
-    const FileBytes file(name);
+    const ImageFileBytes file(name);
     ByteReader reader(file.all());
     Header header = read_header(reader);
     const int width = header.resolution.columns;

@@ -75,7 +75,7 @@ constexpr Entry<Texture> textures[] = {
     {"bitmap", build<class BitmapTexture>, "BitmapTexture"},
     {"checkerboard", build<class Quarters>, "Quarters"},
     {"rawconstant", build<class RawConstant>, "RawConstant"},
-    {"meshattribute", build<class MeshAttribute>, "MeshAttribute"},
+    {"meshattribute", build<class MeshAttributeTexture>, "MeshAttributeTexture"},
 };
 
 constexpr Entry<Emitter> emitters[] = {

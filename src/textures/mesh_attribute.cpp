@@ -16,9 +16,9 @@ namespace plumb {
 ///         <texture type="meshattribute" name="albedo">
 ///             <string name="attribute" value="vertex_color"/>
 ///         </texture>
-class MeshAttribute final : public Texture {
+class MeshAttributeTexture final : public Texture {
 public:
-    explicit MeshAttribute(const Params& p) : name_(p.string("attribute"))
+    explicit MeshAttributeTexture(const Params& p) : name_(p.string("attribute"))
     {
         if (!name_.empty() && !name_.starts_with("vertex_") && !name_.starts_with("face_"))
             p.fail("attribute", "must begin with 'vertex_' or 'face_', not '" + name_ + "'");
@@ -41,6 +41,6 @@ private:
     std::string name_;
 };
 
-template std::unique_ptr<Texture> build<MeshAttribute>(const Params&);
+template std::unique_ptr<Texture> build<MeshAttributeTexture>(const Params&);
 
 } // namespace plumb

@@ -16,7 +16,7 @@ class ImageTexture;
 class BitmapTexture;
 class Quarters;
 class RawConstant;
-class MeshAttribute;
+class MeshAttributeTexture;
 } // namespace plumb
 
 using namespace plumb;
@@ -421,6 +421,6 @@ TEST_CASE("rawconstant takes numbers below zero, and meshattribute only names of
     CHECK(number->number(Vec2f(0.f)) == -0.1f);
     CHECK(ParamsBuilder("texture", "meshattribute")
               .string("attribute", "color")
-              .complaints<MeshAttribute, Texture>() ==
+              .complaints<MeshAttributeTexture, Texture>() ==
           std::vector<std::string>{"error: attribute must begin with 'vertex_' or 'face_', not 'color'"});
 }

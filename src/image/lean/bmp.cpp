@@ -184,7 +184,7 @@ bool all_grey(const std::vector<Color>& palette)
 
 Raster read_bmp(const std::string& name)
 {
-    const FileBytes file(name);
+    const ImageFileBytes file(name);
     ByteReader reader(file.all());
     const Header header = read_header(reader);
     const bool grey = header.bits == 8 && all_grey(header.palette);

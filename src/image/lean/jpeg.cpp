@@ -129,7 +129,7 @@ void colors_of_inks(const unsigned char* inks, std::size_t pixels, unsigned char
 
 Raster read_jpeg(const std::string& name)
 {
-    const FileBytes file(name);
+    const ImageFileBytes file(name);
     Reader reader(file.all());
     jpeg_decompress_struct* const info = &reader.info;
     attempt(reader.errors, [=] {

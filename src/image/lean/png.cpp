@@ -144,7 +144,7 @@ Metadata metadata_of(png_structp png, png_infop info)
 
 Raster read_png(const std::string& name)
 {
-    const FileBytes file(name);
+    const ImageFileBytes file(name);
     Reader reader(file.all());
     png_structp const png = reader.png;
     png_infop const info = reader.info;

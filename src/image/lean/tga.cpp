@@ -150,7 +150,7 @@ void read_pixels(ByteReader& reader, const Header& header, const std::vector<Col
 
 Raster read_tga(const std::string& name)
 {
-    const FileBytes file(name);
+    const ImageFileBytes file(name);
     ByteReader reader(file.all());
     const Header header = read_header(reader);
     check(header);
