@@ -183,7 +183,13 @@ std::optional<Alignment> find_alignment(const ComparedImage& a, const ComparedIm
     const std::optional<Alignment> fits = test_shifts(a, b);
     const bool is_shifted = fits && fits->p <= options.significance;
     const auto shifts = [](const Group& group) { return group.front().text.starts_with("shifted"); };
-    if (is_shifted) std::stable_partition(groups.begin(), groups.end(), shifts);
+    if (is_shifted) {
+        std::stable_partition(groups.begin(), groups.end(), shifts);
+        std::stable_partition(groups.begin(), groups.end(), [&](const Group& group) {
+            return std::any_of(group.begin(), group.end(),
+                               [&](const Change& change) { return change.text == fits->change; });
+        });
+    }
     for (const Group& group : groups) {
         if (shifts(group) && !is_shifted) continue;
         std::optional<Alignment> best;

@@ -53,19 +53,6 @@ Comparison compare_pair(const NoisyImage& how, const SampleKind& kind, Other oth
         options);
 }
 
-// The chance of `count` or more of `trials` that each have this chance.
-double binomial_survival(std::uint64_t count, std::uint64_t trials, double chance)
-{
-    const double n = static_cast<double>(trials);
-    double survival = 0.0;
-    for (std::uint64_t k = count; k <= trials; ++k) {
-        const double x = static_cast<double>(k);
-        survival += std::exp(std::lgamma(n + 1) - std::lgamma(x + 1) - std::lgamma(n - x + 1) +
-                             x * std::log(chance) + (n - x) * std::log1p(-chance));
-    }
-    return std::min(1.0, survival);
-}
-
 void check_false_alarms(const NoisyImage& how, const SampleKind& kind, Other other, std::uint64_t trials,
                         double level)
 {

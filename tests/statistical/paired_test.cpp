@@ -120,18 +120,6 @@ Comparison compare_replicas(const Trial& trial, int replicas, std::uint64_t seed
     return compare(mean_of_replicas(images, Side::a), make_b(trial, seed * 100 + 99), settings_of(trial));
 }
 
-double binomial_survival(std::uint64_t count, std::uint64_t trials, double chance)
-{
-    const double n = static_cast<double>(trials);
-    double survival = 0.0;
-    for (std::uint64_t k = count; k <= trials; ++k) {
-        const double x = static_cast<double>(k);
-        survival += std::exp(std::lgamma(n + 1) - std::lgamma(x + 1) - std::lgamma(n - x + 1) +
-                             x * std::log(chance) + (n - x) * std::log1p(-chance));
-    }
-    return std::min(1.0, survival);
-}
-
 template <class Compare>
 void check_false_alarms(const std::string& text, const Compare& compare_once, std::uint64_t trials,
                         double level)

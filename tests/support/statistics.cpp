@@ -123,6 +123,18 @@ double normal_survival(double z)
     return 0.5 * std::erfc(z / std::sqrt(2.0));
 }
 
+double binomial_survival(std::uint64_t count, std::uint64_t trials, double chance)
+{
+    const double n = static_cast<double>(trials);
+    double survival = 0.0;
+    for (std::uint64_t k = count; k <= trials; ++k) {
+        const double x = static_cast<double>(k);
+        survival += std::exp(std::lgamma(n + 1) - std::lgamma(x + 1) - std::lgamma(n - x + 1) +
+                             x * std::log(chance) + (n - x) * std::log1p(-chance));
+    }
+    return std::min(1.0, survival);
+}
+
 double student_t_two_sided(double t, double degrees_of_freedom)
 {
     // The logarithms of the gamma functions below would cancel.

@@ -27,7 +27,9 @@ double regularised_gamma_q(double a, double x);
 
 double chi2_survival(double statistic, double degrees_of_freedom); // chance of a larger statistic
 double normal_survival(double z);                                  // chance of a larger z, one-sided
-double student_t_two_sided(double t, double degrees_of_freedom);   // chance of a larger |t|
+// Chance of `count` or more successes in so many trials.
+double binomial_survival(std::uint64_t count, std::uint64_t trials, double chance);
+double student_t_two_sided(double t, double degrees_of_freedom); // chance of a larger |t|
 
 // The level of each of `tests` tests that together fail by chance with probability `level`.
 double sidak_level(double level, std::size_t tests);
