@@ -154,6 +154,16 @@ std::vector<Group> all_changes(const ComparedImage& a, const ComparedImage& b)
     return groups;
 }
 
+// The change of this name.
+Group only(const std::vector<Group>& groups, const std::string& text)
+{
+    Group result;
+    for (const Group& group : groups)
+        std::copy_if(group.begin(), group.end(), std::back_inserter(result),
+                     [&text](const Change& change) { return change.text == text; });
+    return result;
+}
+
 double mean_difference(const ComparedImage& a, const ComparedImage& b)
 {
     double sum = 0.0;
@@ -185,10 +195,7 @@ std::optional<Alignment> find_alignment(const ComparedImage& a, const ComparedIm
     const auto shifts = [](const Group& group) { return group.front().text.starts_with("shifted"); };
     if (is_shifted) {
         std::stable_partition(groups.begin(), groups.end(), shifts);
-        std::stable_partition(groups.begin(), groups.end(), [&](const Group& group) {
-            return std::any_of(group.begin(), group.end(),
-                               [&](const Change& change) { return change.text == fits->change; });
-        });
+        groups.insert(groups.begin(), only(groups, fits->change));
     }
     for (const Group& group : groups) {
         if (shifts(group) && !is_shifted) continue;

@@ -79,13 +79,37 @@ std::optional<Gain> gain(const std::vector<double>& q, const std::vector<double>
     return Gain{gains.mean(), 0.5 * student_t_two_sided(t, static_cast<double>(gains.count() - 1))};
 }
 
+struct Candidate {
+    Step step;
+    double gain = 0.0; // over no shift
+    double p = 1.0;
+};
+
+// Half of the shift that A has fits better than none, too: of those that are beyond doubt, the one with the largest gain.
+std::optional<Alignment> best_of(const std::vector<Candidate>& candidates, int tried)
+{
+    constexpr double beyond_doubt = 1e-6;
+    const Candidate* best = nullptr;
+    double p = 1.0;
+    for (const Candidate& one : candidates) {
+        const bool is_better = !best                    ? true
+                               : one.p > beyond_doubt   ? one.p < best->p
+                               : best->p > beyond_doubt ? true
+                                                        : one.gain > best->gain;
+        if (is_better) best = &one;
+        p = std::min(p, one.p);
+    }
+    if (!best) return {};
+    return Alignment{shift_text(best->step.x, best->step.y), std::min(1.0, 2.0 * tried * p), tried};
+}
+
 } // namespace
 
 std::optional<Alignment> test_shifts(const ComparedImage& a, const ComparedImage& b)
 {
     const Squares squares(square_side, a.window);
     const Squares small_squares(opposite_side, a.window);
-    std::optional<Alignment> best;
+    std::vector<Candidate> candidates;
     int tried = 0;
     for (const Step step : steps()) {
         const ImagePair shifted = shift(a, b, step.x, step.y);
@@ -97,14 +121,10 @@ std::optional<Alignment> test_shifts(const ComparedImage& a, const ComparedImage
         const std::optional<Gain> over_opposite =
             gain(squared_differences(shift(a, b, -step.x, -step.y), small_squares),
                  squared_differences(shifted, small_squares), 0.0);
-        const double p = std::min(over_none->p, over_opposite ? over_opposite->p : 1.0);
-        if (!best || p < best->p) best = Alignment{shift_text(step.x, step.y), p, 0};
+        candidates.push_back(
+            {step, over_none->mean, std::min(over_none->p, over_opposite ? over_opposite->p : 1.0)});
     }
-    if (best) {
-        best->tried = tried;
-        best->p = std::min(1.0, best->p * 2 * tried); // two tests of each
-    }
-    return best;
+    return best_of(candidates, tried);
 }
 
 } // namespace plumb
