@@ -328,6 +328,7 @@ constexpr Refusal refusals[] = {
     {"medium", "", vacuum, true},
     {"volume", "", vacuum, true},
     {"phase", "", vacuum, true},
+    {"animation", "", "Plumb renders one moment: use one <transform>", false, "transform"},
     {"blackbody", "", "write <spectrum type=\"blackbody\" name=\"...\">"},
     {"srgb", "", "write it as a linear <rgb>"},
     {"shape", "sdfgrid", as_mesh},

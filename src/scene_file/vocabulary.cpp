@@ -126,8 +126,11 @@ private:
         if (const auto* refusal = find_row(words_, &Vocabulary::refusals, [&](const Refusal& row) {
                 return row.kind == child.tag && row.type.empty();
             })) {
-            refuse_tag(child, *refusal);
-            return false;
+            const std::optional<Element> first = first_of(child, *refusal);
+            refuse_tag(child, *refusal, first.has_value());
+            if (!first) return false;
+            child = *first;
+            return true;
         }
         if (!words_.complete) return true;
         std::vector<std::string_view> known;
@@ -138,10 +141,22 @@ private:
         return false;
     }
 
-    void refuse_tag(const Element& child, const Refusal& refusal)
+    std::optional<Element> first_of(const Element& element, const Refusal& refusal) const
+    {
+        if (!options_.lenient || refusal.first.empty()) return {};
+        for (Element first : element.children) {
+            if (first.tag != refusal.first) continue;
+            first.attributes = element.attributes; // its name
+            return first;
+        }
+        return {};
+    }
+
+    void refuse_tag(const Element& child, const Refusal& refusal, bool first_stands_in)
     {
         if (refusal.once && !refused_.insert({child.file.get(), refusal.instead}).second) return;
-        const std::string_view rest = !refusal.once      ? options_.lenient ? "; it is left out" : ""
+        const std::string_view rest = first_stands_in    ? "; the first stands for all"
+                                      : !refusal.once    ? options_.lenient ? "; it is left out" : ""
                                       : options_.lenient ? "; it and all others are left out"
                                                          : "; --lenient leaves it and all others out";
         diagnostics_.unsupported(child.place(),

@@ -37,7 +37,8 @@ struct Preset {
 };
 struct Refusal {
     std::string_view kind, type, instead;
-    bool once = false; // one message for all elements of a file that have the same advice
+    bool once = false;           // one message for all elements of a file that have the same advice
+    std::string_view first = {}; // of a tag: --lenient puts its first child of this tag in its place
 };
 // A parameter that is left out.
 struct Ignored {

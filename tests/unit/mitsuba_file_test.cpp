@@ -228,6 +228,23 @@ TEST_CASE("what Mitsuba's files need and Plumb has not is refused in their words
         ContainsSubstring("warning: shape 'sdfgrid' is not supported; export it as a mesh; it is left out"));
 }
 
+TEST_CASE("of a motion, --lenient takes the first transform", "[unit][mitsuba]")
+{
+    const std::string shape =
+        "<shape type='sphere'><animation name='to_world'><transform time='0'><translate x='1'/>"
+        "</transform><transform time='1'/></animation></shape>";
+    CHECK(messages(shape) ==
+          "a.xml:1:45: error: <animation> is not supported; Plumb renders one moment: use one "
+          "<transform>\n");
+    const Read lenient = read(shape + rest, "3.0.0", {}, true);
+    CHECK(
+        lenient.text ==
+        read("<shape type='sphere'><transform name='to_world'><translate x='1'/></transform></shape>" + rest,
+             "3.0.0", {}, true)
+            .text);
+    CHECK_THAT(lenient.messages, ContainsSubstring("; the first stands for all"));
+}
+
 TEST_CASE("a group of which nothing is left is left out with its instances", "[unit][mitsuba]")
 {
     const Read lenient =
