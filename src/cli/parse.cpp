@@ -87,6 +87,11 @@ ParsedWords parse_words(const VerbHelp& verb, std::span<const OptionHelp> option
     std::vector<std::string> rest(words.begin() + (verb.name.empty() ? 0 : 1), words.end());
     if (!rest.empty()) parsed.first = rest.front();
 
+    for (std::size_t i = 0; i + 1 < rest.size(); ++i)
+        for (const OptionHelp& option : options)
+            if (option.value_is_optional && option.long_name() == rest[i])
+                parsed.behind_optional.try_emplace(rest[i + 1], rest[i]);
+
     CLI::App app;
     app.set_help_flag();
     app.allow_extras();
@@ -157,6 +162,8 @@ void reject_words(const VerbHelp& verb, std::span<const OptionHelp> options, con
     for (const Verb* other : all_verbs())
         if (!other->name.empty() && word == other->name)
             throw UsageError(fmt::format("the verb '{}' must come first", word));
+    if (const auto option = words.behind_optional.find(word); option != words.behind_optional.end())
+        throw UsageError(fmt::format("unexpected argument '{0}'; write '{1}={0}'", word, option->second));
     throw UsageError(
         fmt::format("unexpected argument '{}' after '{}'", word, subjects[verb.max_subjects - 1]));
 }

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -83,6 +84,8 @@ struct ParsedWords {
     std::vector<Given> given; // in the order of the table
     std::vector<std::string> subjects;
     std::vector<std::string> unknown; // look like options
+    // A word behind an option whose value is optional, "--tev HOST" for "--tev=HOST", and the option.
+    std::map<std::string, std::string> behind_optional;
     std::string typed;
     std::string first; // behind the verb's name
 };

@@ -357,7 +357,7 @@ std::optional<Metadata> read_state_header(const std::filesystem::path& path)
     return header;
 }
 
-StateFile read_state(const std::filesystem::path& path)
+StateFile read_state(const std::filesystem::path& path, std::string_view purpose)
 {
     std::optional<StateFile> file;
     std::string expected_hash;
@@ -393,7 +393,7 @@ StateFile read_state(const std::filesystem::path& path)
         if (hash->hex() != expected_hash) throw Error("it is damaged: its hash is wrong");
         if (!possible) throw Error("its sums do not fit its samples");
     } catch (const Error& error) {
-        throw Error(fmt::format("cannot resume from '{}': {}", path.string(), error.what()));
+        throw Error(fmt::format("cannot {} '{}': {}", purpose, path.string(), error.what()));
     }
     return std::move(*file);
 }

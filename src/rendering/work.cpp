@@ -129,7 +129,7 @@ Work merge_parts(std::span<const std::filesystem::path> files, const MergeOption
     std::optional<Work> work;
     for (const std::filesystem::path& path : files) {
         const std::string name = path.string();
-        StateFile part = read_state(path);
+        StateFile part = read_state(path, "merge");
         check_language(part, name);
         // What is wrong with a header is said before many other parts are read.
         const std::uint64_t samples_per_pixel = wanted_samples(part, name);

@@ -236,6 +236,7 @@ TEST_CASE("unknown options are named with a way out", "[unit][options]")
           "unknown option '--nonsense'; 'renderer --help' lists the options");
     CHECK(usage_error("s.xml --no-gui") == "Plumb has no window; omit '--no-gui'");
     CHECK(usage_error("a.xml b.xml") == "unexpected argument 'b.xml' after 'a.xml'");
+    CHECK(usage_error("a.xml --tev host:1") == "unexpected argument 'host:1'; write '--tev=host:1'");
     CHECK(usage_error("") == "no scene file given; 'renderer --help' shows how");
     CHECK(usage_error("--spp 4") == "no scene file given; 'renderer --help' shows how");
 }

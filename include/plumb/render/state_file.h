@@ -21,6 +21,7 @@
 #include "plumb/render/render.h"
 
 #include <optional>
+#include <string_view>
 
 namespace plumb {
 
@@ -33,8 +34,8 @@ struct StateFile {
     Vec2i resolution;
 };
 
-// Throws Error, "cannot resume from 'PATH': " and the reason.
-StateFile read_state(const std::filesystem::path& path);
+// Throws Error, "cannot PURPOSE 'PATH': " and the reason.
+StateFile read_state(const std::filesystem::path& path, std::string_view purpose = "resume from");
 
 // The caller's header of the file alone, unchecked; nothing if it is no state file.
 std::optional<Metadata> read_state_header(const std::filesystem::path& path);
