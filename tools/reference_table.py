@@ -14,7 +14,6 @@ import xml.etree.ElementTree
 from pathlib import Path
 
 SUITE = "tests/regression/suite.xml"
-OPTION_NAMES = {"size": "--size {}", "integrator": "--integrator {}", "sampler": "--sampler {}"}
 
 
 def entries(element, inherited):
@@ -79,22 +78,22 @@ def percent(value):
     return f"{100 * value:.2g} %"
 
 
-def options(header):
-    words = [text.format(header[f"plumb:set.{name}"]) for name, text in OPTION_NAMES.items() if f"plumb:set.{name}" in header]
-    words += [f"-D {word}" for word in re.split(r"\s+", header.get("plumb:definitions", "")) if word]
+def options(header, width, height):
+    words = []
+    if "plumb:set.size" in header or "--size" in header.get("plumb:arguments", ""):
+        words.append(f"--size {width}x{height}")
+    words += [f"-D {word}" for word in header.get("plumb:definitions", "").split()]
     return f"`{' '.join(words)}`" if words else ""
 
 
 def row(renderer, root, name, images):
     report, channels = read(renderer, root / f"references/{name}.exr")
     header = report["header"]
-    if header["plumb:biased"] and "depth" not in header["plumb:biases"]:
-        raise SystemExit(f"tools/docs: references/{name}.exr is biased: {header['plumb:biases']}")
     whole, quiet = errors(channels)
     width, height = report["resolution"]
     scene = re.sub(r"^.*scenes/", "", header["plumb:scene"])
     others = ", ".join(images) if images != [Path(name).name] else "itself"
-    return (f"| `{name}` | `{scene}` | {options(header)} | {width}x{height} | {header['plumb:samplesPerPixel']} | "
+    return (f"| `{name}` | `{scene}` | {options(header, width, height)} | {width}x{height} | {header['plumb:samplesPerPixel']} | "
             f"{header['plumb:seed']} | {percent(whole)} | {percent(quiet)} | {others} |")
 
 
