@@ -59,16 +59,22 @@ copy_tree() {
     done | tar --directory "$plumb_root" --null --files-from=- --create | tar --directory "$directory$tree" --extract
 }
 
-# Runs a command there, in the tree. Its mounts and its processes end with it, whatever happens.
+# Runs a command there, in the tree. Its mounts and its processes end with it, whatever happens. A directory of ccache is there,
+# too, and knows files by their paths in the tree.
 inside() {
     unshare --mount --pid --fork --kill-child --propagation private bash -euc '
-        directory=$1 tree=$2
-        shift 2
+        directory=$1 tree=$2 cache=$3
+        shift 3
         mount -t proc proc "$directory/proc"
         mount --rbind /dev "$directory/dev"
+        if [[ -n $cache ]]; then
+            mkdir -p "$cache" "$directory/var/cache/ccache"
+            mount --bind "$cache" "$directory/var/cache/ccache"
+        fi
         exec chroot "$directory" env --chdir="$tree" "$@"
-    ' inside "$directory" "$tree" --ignore-environment \
+    ' inside "$directory" "$tree" "${CCACHE_DIR:-}" --ignore-environment \
         PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin HOME=/tmp LANG=C.UTF-8 \
+        ${CCACHE_DIR:+CCACHE_DIR=/var/cache/ccache CCACHE_BASEDIR="${tree%/*}"} \
         ${CXX:+CXX="$CXX"} ${CMAKE_BUILD_PARALLEL_LEVEL:+CMAKE_BUILD_PARALLEL_LEVEL="$CMAKE_BUILD_PARALLEL_LEVEL"} \
         ${http_proxy:+http_proxy="$http_proxy"} ${https_proxy:+https_proxy="$https_proxy"} "$@" </dev/null
 }

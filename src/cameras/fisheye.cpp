@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 
+#include "cameras/clip_range.h"
 #include "cameras/film_window.h"
 #include "model/plugin.h"
 #include "plumb/math/elementary.h"
@@ -39,16 +40,14 @@ namespace plumb {
 ///         </camera>
 class FisheyeCamera final : public Camera {
 public:
-    explicit FisheyeCamera(const Params& params) : film_(params), to_world_(params.transform("toWorld"))
+    explicit FisheyeCamera(const Params& params)
+        : film_(params), to_world_(params.transform("toWorld")), clip_(params)
     {
         largest_angle_ = params.number("fov", 180.f, Range::positive_to(360.0)) * pi / 360.f;
         is_equisolid_ = params.choice("mapping", "equidistant", {"equidistant", "equisolid"}) == "equisolid";
         radius_ = 0.5f * static_cast<float>(std::min(film_.full.x, film_.full.y));
         origin_ = Vec3f(to_world_.point(Vec3d(0.0)));
         if (params.boolean("mirrored", false)) mirror_ = -1.f;
-        if (params.has("nearClip")) t_min_ = params.number("nearClip", 0.f, Range::at_least(0.0));
-        if (params.has("farClip")) t_max_ = params.number("farClip", infinity, Range::positive());
-        if (!(t_min_ < t_max_)) params.fail("nearClip", "must be less than farClip");
     }
 
     CameraRay sample_ray(const Vec2f& raster, const Vec2f& /*u_lens*/) const override
@@ -63,7 +62,8 @@ public:
         const float angle = angle_at(distance);
         const float across = distance > 0.f ? plumb::sin(angle) / distance : 0.f;
         const Vec3f local(x * across, y * across, plumb::cos(angle));
-        return {{origin_, Vec3f(normalize(to_world_.vector(Vec3d(local)))), t_min_, t_max_}, Color(1.f)};
+        return {{origin_, Vec3f(normalize(to_world_.vector(Vec3d(local)))), clip_.near, clip_.far},
+                Color(1.f)};
     }
 
     Vec2i resolution() const override { return film_.resolution; }
@@ -83,13 +83,12 @@ private:
 
     FilmWindow film_;
     Transform to_world_;
+    ClipRange clip_;
     Vec3f origin_{0.f};
     float largest_angle_ = 0.f; // radians, at the edge of the circle
     float radius_ = 1.f;        // of the circle, in pixels
     bool is_equisolid_ = false;
     float mirror_ = 1.f; // -1: the view is mirrored
-    float t_min_ = 0.f;
-    float t_max_ = infinity;
 };
 
 template std::unique_ptr<Camera> build<FisheyeCamera>(const Params&);

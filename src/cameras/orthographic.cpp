@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 
+#include "cameras/clip_range.h"
 #include "cameras/film_window.h"
 #include "model/plugin.h"
 #include "plumb/model/camera.h"
@@ -30,7 +31,8 @@ namespace plumb {
 ///         </camera>
 class OrthographicCamera final : public Camera {
 public:
-    explicit OrthographicCamera(const Params& params) : film_(params), to_world_(params.transform("toWorld"))
+    explicit OrthographicCamera(const Params& params)
+        : film_(params), to_world_(params.transform("toWorld")), clip_(params)
     {
         const double width = params.number("viewWidth", 2.f, Range::positive());
         pixel_size_ = width / film_.full.x;
@@ -39,12 +41,6 @@ public:
         if (params.boolean("mirrored", false)) mirror_ = -1.0;
         const Vec3d forward = to_world_.vector(Vec3d(0.0, 0.0, 1.0));
         direction_ = Vec3f(normalize(forward));
-        double near = 0.0, far = infinity;
-        if (params.has("nearClip")) near = params.number("nearClip", 0.f, Range::at_least(0.0));
-        if (params.has("farClip")) far = params.number("farClip", infinity, Range::positive());
-        if (!(near < far)) params.fail("nearClip", "must be less than farClip");
-        t_min_ = static_cast<float>(near);
-        t_max_ = static_cast<float>(far);
     }
 
     CameraRay sample_ray(const Vec2f& raster, const Vec2f& /*u_lens*/) const override
@@ -53,7 +49,7 @@ public:
         const Vec2f place = raster + film_.offset;
         const Vec3d origin((half_width_ - place.x * pixel_size_) * mirror_,
                            half_height_ - place.y * pixel_size_, 0.0);
-        return {{Vec3f(to_world_.point(origin)), direction_, t_min_, t_max_}, Color(1.f)};
+        return {{Vec3f(to_world_.point(origin)), direction_, clip_.near, clip_.far}, Color(1.f)};
     }
 
     Vec2i resolution() const override { return film_.resolution; }
@@ -63,13 +59,12 @@ public:
 private:
     FilmWindow film_;
     Transform to_world_;
+    ClipRange clip_;
     double pixel_size_ = 0.0;
     double half_width_ = 1.0; // of the full image
     double half_height_ = 1.0;
     double mirror_ = 1.0; // -1: the view is mirrored
     Vec3f direction_{0.f, 0.f, 1.f};
-    float t_min_ = 0.f;
-    float t_max_ = infinity;
 };
 
 template std::unique_ptr<Camera> build<OrthographicCamera>(const Params&);

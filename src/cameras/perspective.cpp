@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 
+#include "cameras/clip_range.h"
 #include "cameras/field_of_view.h"
 #include "cameras/film_window.h"
 #include "model/plugin.h"
@@ -41,7 +42,8 @@ namespace plumb {
 ///         </camera>
 class PerspectiveCamera final : public Camera {
 public:
-    explicit PerspectiveCamera(const Params& params) : film_(params), to_world_(params.transform("toWorld"))
+    explicit PerspectiveCamera(const Params& params)
+        : film_(params), to_world_(params.transform("toWorld")), clip_(params)
     {
         const FieldOfView view = read_field_of_view(params, film_.full);
         half_width_ = view.half_width;
@@ -55,7 +57,7 @@ public:
         shift_ = film_.offset + Vec2f(principal.x * static_cast<float>(film_.full.x),
                                       principal.y * static_cast<float>(film_.full.y));
         position_ = to_world_.point(Vec3d(0.0, 0.0, 0.0));
-        read_clipping(params);
+        clips_ = clip_.near > 0.f || clip_.far < infinity;
         read_lens(params);
     }
 
@@ -77,8 +79,8 @@ public:
         Ray ray{Vec3f(lens_radius_ > 0.0 ? to_world_.point(origin) : position_), Vec3f(world * scale)};
         if (clips_) {
             // One step along the unit direction is direction.z * scale along camera +z.
-            ray.t_min = static_cast<float>(near_clip_ / (direction.z * scale));
-            ray.t_max = static_cast<float>(far_clip_ / (direction.z * scale));
+            ray.t_min = static_cast<float>(clip_.near / (direction.z * scale));
+            ray.t_max = static_cast<float>(clip_.far / (direction.z * scale));
         }
         return {ray, Color(1.f)};
     }
@@ -88,14 +90,6 @@ public:
     bool sample_border() const override { return film_.sample_border; }
 
 private:
-    void read_clipping(const Params& params)
-    {
-        if (params.has("nearClip")) near_clip_ = params.number("nearClip", 0.f, Range::at_least(0.0));
-        if (params.has("farClip")) far_clip_ = params.number("farClip", infinity, Range::positive());
-        clips_ = near_clip_ > 0.0 || far_clip_ < std::numeric_limits<double>::infinity();
-        if (!(near_clip_ < far_clip_)) params.fail("nearClip", "must be less than farClip");
-    }
-
     void read_lens(const Params& params)
     {
         lens_radius_ = params.number("lensRadius", 0.f, Range::at_least(0.0));
@@ -106,6 +100,7 @@ private:
 
     FilmWindow film_;
     Transform to_world_;
+    ClipRange clip_;
     Vec2f shift_{0.f};        // of a raster place in the window to the full image about the axis, in pixels
     double half_width_ = 1.0; // of the image in the plane z = 1; negative where the view is mirrored
     double half_height_ = 1.0;
@@ -113,8 +108,6 @@ private:
     double pixel_height_ = 0.0;
     Vec3d position_{0.0, 0.0, 0.0}; // of the pinhole, in the world
     bool clips_ = false;
-    double near_clip_ = 0.0;
-    double far_clip_ = std::numeric_limits<double>::infinity();
     double lens_radius_ = 0.0;
     double focal_distance_ = 1.0;
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 
+#include "cameras/clip_range.h"
 #include "cameras/film_window.h"
 #include "model/plugin.h"
 #include "plumb/math/elementary.h"
@@ -32,13 +33,11 @@ namespace plumb {
 ///         </camera>
 class SphericalCamera final : public Camera {
 public:
-    explicit SphericalCamera(const Params& params) : film_(params), to_world_(params.transform("toWorld"))
+    explicit SphericalCamera(const Params& params)
+        : film_(params), to_world_(params.transform("toWorld")), clip_(params)
     {
         origin_ = Vec3f(to_world_.point(Vec3d(0.0)));
         if (params.boolean("mirrored", false)) mirror_ = -1.f;
-        if (params.has("nearClip")) t_min_ = params.number("nearClip", 0.f, Range::at_least(0.0));
-        if (params.has("farClip")) t_max_ = params.number("farClip", infinity, Range::positive());
-        if (!(t_min_ < t_max_)) params.fail("nearClip", "must be less than farClip");
     }
 
     CameraRay sample_ray(const Vec2f& raster, const Vec2f& /*u_lens*/) const override
@@ -50,7 +49,7 @@ public:
         const Vec3f local(plumb::cos(latitude) * plumb::sin(longitude), plumb::sin(latitude),
                           plumb::cos(latitude) * plumb::cos(longitude));
         const Vec3f direction(normalize(to_world_.vector(Vec3d(local))));
-        return {{origin_, direction, t_min_, t_max_}, Color(1.f)};
+        return {{origin_, direction, clip_.near, clip_.far}, Color(1.f)};
     }
 
     Vec2i resolution() const override { return film_.resolution; }
@@ -60,10 +59,9 @@ public:
 private:
     FilmWindow film_;
     Transform to_world_;
+    ClipRange clip_;
     Vec3f origin_{0.f};
     float mirror_ = 1.f; // -1: the view is mirrored
-    float t_min_ = 0.f;
-    float t_max_ = infinity;
 };
 
 template std::unique_ptr<Camera> build<SphericalCamera>(const Params&);

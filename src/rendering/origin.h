@@ -4,7 +4,7 @@
 // What an image's header says about how it was made: enough to make it again, and nothing that differs between two
 // identical runs or tells about the machine (no time, no host).
 //
-//     Software                "Plumb 0.1.0"
+//     Software                "Plumb 0.2.0"
 //     plumb:scene             the scene file: its path as given, or its name if that was an absolute path
 //     plumb:settings, plumb:set.NAME   the settings: settings_header.h
 //     plumb:inputs            a line for each file that was read: the hash of its bytes, a space, its path from the scene

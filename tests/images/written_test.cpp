@@ -23,7 +23,7 @@ struct Written {
 };
 
 const Metadata metadata = {
-    {"Software", std::string("Plumb 0.1.0")},
+    {"Software", std::string("Plumb 0.2.0")},
     {"plumb:seed", std::string("7")},
     {"plumb:spp", 7},
     {"plumb:scale", 0.5f},
@@ -191,7 +191,7 @@ TEST_CASE("JPEG files have the same pixels, and the program's name", "[images][w
                 const Decoded image = decode(*module, file);
                 const std::string* const software = image.find("Software");
                 REQUIRE(software);
-                CHECK(*software == "Software: text Plumb 0.1.0");
+                CHECK(*software == "Software: text Plumb 0.2.0");
             }
     }
 }
