@@ -5,46 +5,50 @@
 #include "plumb/model/sampler.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 namespace plumb {
 
-void Pilot::add(double value)
+namespace {
+
+constexpr double sqrt_2 = 1.4142135623730951;
+
+} // namespace
+
+// The power of two that is nearest to 1 / target^2, by its logarithm.
+AdaptiveRule::AdaptiveRule(double target) : usual_(least_adaptive_samples)
 {
-    block_sum_ += value;
-    if (++size_ % block != 0) return;
-    const double mean = block_sum_ / static_cast<double>(block);
-    block_sum_ = 0.0;
-    blocks_ += 1.0;
-    const double delta = mean - mean_;
-    mean_ += delta / blocks_;
-    squares_ += delta * (mean - mean_);
+    while (usual_ < max_samples_per_pixel && static_cast<double>(usual_) * sqrt_2 * target * target < 1.0)
+        usual_ *= 2;
 }
 
-std::uint64_t Pilot::wanted(double target) const
+std::uint64_t AdaptiveRule::least() const
 {
-    const double variance = static_cast<double>(block) * squares_ / (blocks_ - 1.0);
-    const double relative = std::sqrt(variance) / std::max(mean_, adaptive_floor);
-    const double samples = 16.0 * relative / target;
-    std::uint64_t power = least_adaptive_samples;
-    while (static_cast<double>(power) * 1.4142135623730951 < samples && power < max_samples_per_pixel) power *= 2;
-    return power;
+    return std::max(usual_ / 2, least_adaptive_samples);
 }
 
-PixelPlan plan_pixel(double target, std::uint64_t maximum, const std::function<double(std::uint64_t)>& take)
+std::uint64_t AdaptiveRule::pilot_size() const
 {
-    if (maximum <= least_adaptive_samples) return {least_adaptive_samples, false};
-    Pilot pilot;
-    std::uint64_t least = least_adaptive_samples;
-    for (std::uint64_t size = first_pilot;; size *= 2) {
-        while (pilot.size() < size) pilot.add(take(pilot.size()));
-        const std::uint64_t most = samples_per_pilot_sample * size;
-        if (const std::uint64_t wanted = pilot.wanted(target); wanted <= most)
-            return {std::max(wanted, least), true};
-        least = most;
-        if (most >= maximum) return {most, false};
-    }
+    return std::max(usual_ / 32, least_adaptive_samples);
+}
+
+std::uint64_t AdaptiveRule::samples(std::span<const double> pilot) const
+{
+    const auto size = static_cast<double>(pilot.size());
+    double mean = 0.0;
+    for (const double value : pilot) mean += value / size;
+    double distance = 0.0;
+    for (const double value : pilot) distance += std::abs(value - mean) / size;
+    const double deviation = distance / std::max(mean, adaptive_floor);
+    // The power of two that is nearest to usual deviation^(2/3): numbers above sqrt(2) times one belong to the next. In
+    // third powers, which need no root.
+    std::uint64_t samples = least();
+    const auto is_too_few = [&] {
+        const double ratio = sqrt_2 * static_cast<double>(samples) / static_cast<double>(usual_);
+        return ratio * ratio * ratio < deviation * deviation;
+    };
+    while (samples < max_samples_per_pixel && is_too_few()) samples *= 2;
+    return samples;
 }
 
 } // namespace plumb

@@ -211,7 +211,7 @@ Film& Film::operator+=(const Film& other)
                                 layer_names(layers()), layer_names(other.layers())));
     if (plans() != other.plans())
         throw Error("films of which one keeps plans and the other does not cannot be added");
-    // A plan is a function of the pixel: whoever has one has the same, but for how far it was looked.
+    // A plan is a function of the pixel: whoever has one has the same.
     for (std::size_t i = 0; i < plans_.size(); ++i) plans_[i] = std::max(plans_[i], other.plans_[i]);
     if (layers_) *layers_ += *other.layers_;
     for (std::size_t i = 0; i < pixels_.size(); ++i) {

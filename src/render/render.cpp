@@ -68,6 +68,7 @@ struct Worker {
     Tracer tracer;
     std::unique_ptr<Sampler> sampler;
     LeftOut left_out;
+    std::vector<double> pilot; // of the pixel that decides
 };
 
 // One line of the image's progress at a time, whichever thread is free to report it.
@@ -149,6 +150,18 @@ double pilot_value(const SampleTaken& sample)
 {
     const Color value = sample.radiance * sample.weight;
     return is_finite(value) ? std::max(static_cast<double>(luminance(value)), 0.0) : 0.0;
+}
+
+// Tells the reporter of the plans that there are, and of how many there are to be.
+void expect_plans(const Film& film, const SampleSet& wanted, std::uint64_t total, Reporter& reporter)
+{
+    const PixelRect& window = film.window();
+    reporter.expect_plans_of(wanted.count() /
+                             std::max<std::uint64_t>(wanted.samples_per_pixel(window).most, 1));
+    for (int y = window.y; y < window.y + window.height; ++y)
+        for (int x = window.x; x < window.x + window.width; ++x)
+            if (const std::uint64_t plan = film.plan({x, y}); plan > 0)
+                reporter.add_plan(std::min(plan, total));
 }
 
 RenderState nothing_taken(const RenderJob& job, const RenderOptions& options)
@@ -253,29 +266,31 @@ bool Rendering::take(const SampleSet& wanted, const ProgressReport& progress, co
     }
     const std::uint64_t total = render_samples(job_, options_);
     check_total(job_, end, total);
-    const bool is_adaptive = options_.adaptive.has_value();
-    Reporter reporter(progress, is_adaptive ? state_.samples() : (wanted & state_.taken).count(),
-                      wanted.count());
-    if (is_adaptive) expect_plans(wanted, total, reporter);
+    std::optional<AdaptiveRule> rule;
+    if (options_.adaptive) rule.emplace(*options_.adaptive);
+    Reporter reporter(progress, rule ? state_.samples() : (wanted & state_.taken).count(), wanted.count());
+    if (rule) expect_plans(state_.film, wanted, total, reporter);
     const SampleLayers layers(job_, options_);
     oneapi::tbb::enumerable_thread_specific<Worker> workers([&] { return Worker(job_, total, layers); });
     const FilmEdge edge(*job_.filter, *job_.camera);
     std::atomic<bool> paused = false;
 
-    // Where the pixel's samples of the block end.
+    // Where the pixel's samples of the block end. Below the least number of samples there is nothing to decide.
     const auto end_of_pixel = [&](Worker& worker, Vec2i pixel, const SampleBlock& block) {
-        if (!is_adaptive) return block.last;
-        PixelPlan plan = PixelPlan::from_word(state_.film.plan(pixel));
-        if (!plan.reaches(total)) {
-            const bool is_new = plan.samples == 0;
-            plan = plan_pixel(*options_.adaptive, total, [&](std::uint64_t number) {
-                return pilot_value(take_sample(job_, edge, worker.tracer, *worker.sampler, options_.seed, pixel,
-                                                first_pilot_sample + number));
-            });
-            state_.film.set_plan(pixel, plan.word());
-            if (is_new) reporter.add_plan(std::min(plan.samples, total));
+        if (!rule || total <= rule->least()) return block.last;
+        std::uint64_t plan = state_.film.plan(pixel);
+        if (plan == 0) {
+            worker.pilot.resize(rule->pilot_size());
+            for (std::uint64_t i = 0; i < worker.pilot.size(); ++i) {
+                if (!layers.empty()) worker.layers.start(worker.tracer.counts());
+                worker.pilot[i] = pilot_value(take_sample(job_, edge, worker.tracer, *worker.sampler,
+                                                          options_.seed, pixel, first_pilot_sample + i));
+            }
+            plan = rule->samples(worker.pilot);
+            state_.film.set_plan(pixel, static_cast<std::uint32_t>(plan));
+            reporter.add_plan(std::min(plan, total));
         }
-        return std::min(block.last, std::max(block.first, plan.samples));
+        return std::min(block.last, std::max(block.first, plan));
     };
 
     // How much of the block was done: its first rows.
@@ -317,8 +332,8 @@ bool Rendering::take(const SampleSet& wanted, const ProgressReport& progress, co
     };
 
     for (std::uint64_t pass; first < end && !paused; first += pass) {
-        pass = is_adaptive ? std::clamp(std::bit_floor(first), samples_per_pass, most_samples_per_pass)
-                           : samples_per_pass;
+        pass = rule ? std::clamp(std::bit_floor(first), samples_per_pass, most_samples_per_pass)
+                    : samples_per_pass;
         std::vector<SampleBlock> work = cut_into_work(missing, first, first + pass, options_.tile_size);
         parallel_for(work.size(), options_.threads, [&](std::size_t i) { work[i] = take_block(work[i]); });
         state_.taken = state_.taken | SampleSet(work);

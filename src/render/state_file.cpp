@@ -65,12 +65,10 @@ auto layer_words(const Film& film, Words& all)
 }
 
 // Whether a pixel with so many accepted samples can have the plan.
-bool is_possible_plan(std::uint32_t word, std::uint64_t count)
+bool is_possible_plan(std::uint32_t plan, std::uint64_t count)
 {
-    const PixelPlan plan = PixelPlan::from_word(word);
-    if (plan.samples == 0) return !plan.is_final && count == 0;
-    return std::has_single_bit(plan.samples) && plan.samples >= least_adaptive_samples &&
-           plan.samples <= film_max_samples && count <= plan.samples;
+    return plan == 0 || (std::has_single_bit(plan) && plan >= least_adaptive_samples &&
+                         plan <= film_max_samples && count <= plan);
 }
 
 void get_words(const Film& film, Vec2i pixel, AllWords& all)

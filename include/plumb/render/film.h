@@ -73,8 +73,8 @@ public:
     // over n. Unbiased where samples are independent. Not a number, for unknown, below two samples.
     Color variance_of_mean(Vec2i pixel) const;
 
-    // A pixel's plan: PixelPlan::word() of adaptive.h, 0 if it has none yet. Only of a film that keeps them. As for add(): one
-    // pixel from one thread at a time.
+    // A pixel's plan: how many samples it is to get (adaptive.h), 0 if that is not known yet. Only of a film that keeps them.
+    // As for add(): one pixel from one thread at a time.
     std::uint32_t plan(Vec2i pixel) const { return plans_[index(pixel)]; }
     void set_plan(Vec2i pixel, std::uint32_t plan) { plans_[index(pixel)] = plan; }
 
