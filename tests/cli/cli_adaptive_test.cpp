@@ -26,7 +26,8 @@ void render(const SceneDirectory& directory, const Names& words)
     REQUIRE(result.exit_code == 0);
 }
 
-const Names adaptive = {"--spp", "256", "--adaptive", "0.1"};
+const Names adaptive = { // 128 samples usually, 64 at least
+    "--spp", "256", "--adaptive", "0.1"};
 
 Names with(Names words, const Names& more)
 {
@@ -86,7 +87,7 @@ TEST_CASE("adaptive images have the same bytes by threads, parts, checkpoints an
     REQUIRE(directory.run({"merge", "3.exr", "1.exr", "2.exr", "-o", "merged.exr"}).exit_code == 0);
     CHECK(read_bytes(directory / "merged.exr") == whole);
 
-    // A smaller maximum, and then more: pilots go on where they had stopped.
+    // Smaller maxima, of which only the last needs pilots, and then more.
     for (const std::string samples : {"5", "16", "100"})
         render(directory, {"--spp", samples, "--adaptive", "0.1", "--checkpoint", "c.exr", "--resume", "-o",
                            "part.exr"});
@@ -111,9 +112,9 @@ TEST_CASE("an adaptive rendering says how many samples its pixels have", "[cli][
     const SceneDirectory directory;
     const RunResult result = run_with(directory, with(adaptive, {"-o", "a.exr", "--json", "a.json"}));
     REQUIRE(result.exit_code == 0);
-    CHECK_THAT(result.err, ContainsSubstring("adaptive: 16 to 256 samples per pixel, "));
+    CHECK_THAT(result.err, ContainsSubstring("adaptive: 64 to 256 samples per pixel, "));
     const std::string json = read_bytes(directory / "a.json");
-    CHECK_THAT(json, ContainsSubstring("\"adaptive\": {\n    \"target\": 0.1,\n    \"least_spp\": 16,\n"
+    CHECK_THAT(json, ContainsSubstring("\"adaptive\": {\n    \"target\": 0.1,\n    \"least_spp\": 64,\n"
                                        "    \"most_spp\": 256,\n    \"mean_spp\": "));
     // No word of it where it is off.
     render(directory, {"-o", "plain.exr", "--spp", "16", "--json", "plain.json", "--checkpoint", "c.exr"});
@@ -145,7 +146,7 @@ TEST_CASE("what does not go with --adaptive", "[cli][adaptive]")
     CHECK(usage({"--adaptive", "0.1", "--part", "1/2", "--part-by", "samples"}) ==
           "error: --part-by samples and --adaptive cannot be used together: each part would take the pilot "
           "of every pixel again; use --part-by tiles\n");
-    CHECK(usage({"--adaptive", "0"}) == "error: --adaptive must be from 1e-06 to 1000, not '0'\n");
+    CHECK(usage({"--adaptive", "0"}) == "error: --adaptive must be a number from 0.0001 to 1, not '0'\n");
 
     const auto refusal = [&](const Names& words) {
         const RunResult result = run_with(directory, with({"--quiet"}, words));

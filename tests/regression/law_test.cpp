@@ -11,7 +11,6 @@
 #include "support/scene_text.h"
 
 #include <atomic>
-#include <cmath>
 #include <cstdlib>
 #include <random>
 
@@ -146,7 +145,7 @@ void check_law(int cases)
             options.crop = PixelRect{x, y, 1 + below(random, width - x), 1 + below(random, height - y)};
         }
         if (!job.sampler->depends_on_total() && random.next_1d() < 0.3f) {
-            options.adaptive = std::exp(random.between(std::log(0.03), std::log(0.3)));
+            options.adaptive = random.between(0.09, 0.35);
             options.samples_per_pixel = static_cast<std::uint64_t>(1 + below(random, 80));
         }
         const RenderState expected = render(job, options);

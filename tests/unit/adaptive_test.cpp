@@ -1,99 +1,72 @@
 // SPDX-License-Identifier: MIT
 
-// How many samples a pixel gets, as a function of its pilot, the target and the maximum.
+// How many samples a pixel gets, as a function of its pilot and the target.
 
 #include "plumb/render/adaptive.h"
 #include "plumb/render/film.h"
 #include "support/catch.h"
-#include "support/random.h"
 
 #include <algorithm>
-#include <bit>
+#include <vector>
 
 using namespace plumb;
-using namespace plumb::test;
 
 namespace {
 
-// Values that are functions of a pixel and a number: each pixel has another share of light.
-double pilot_value(std::uint64_t pixel, std::uint64_t number)
+// Of mean 1 and with this deviation: half of the samples are brighter, half are darker; up to 1.
+std::vector<double> even(std::uint64_t size, double deviation)
 {
-    TestRandom random(pixel * 7919 + number + 1);
-    const double share = std::exp2(-static_cast<double>(pixel % 9));
-    return random.next_double() < share ? random.next_double() / share : 0.0;
+    std::vector<double> values(size, 1.0 - deviation);
+    std::fill_n(values.begin(), size / 2, 1.0 + deviation);
+    return values;
 }
 
-PixelPlan plan_of(std::uint64_t pixel, double target, std::uint64_t maximum)
+// Of mean 1 and with a deviation of 2 (1 - 1 / size): one sample is bright, the others are black.
+std::vector<double> rare(std::uint64_t size)
 {
-    return plan_pixel(target, maximum, [&](std::uint64_t number) { return pilot_value(pixel, number); });
+    std::vector<double> values(size, 0.0);
+    values[size / 3] = static_cast<double>(size);
+    return values;
 }
 
 } // namespace
 
-TEST_CASE("a pixel's number of samples does not depend on the maximum that it is cut at", "[unit][adaptive]")
+TEST_CASE("the target settles the usual number of samples, and the sizes that follow", "[unit][adaptive]")
 {
-    constexpr double target = 0.05;
-    std::uint64_t numbers = 0; // as bits, which the pixels have
-    for (std::uint64_t pixel = 0; pixel < 60; ++pixel) {
-        const PixelPlan whole = plan_of(pixel, target, 1 << 16);
-        CHECK(std::has_single_bit(whole.samples));
-        numbers |= whole.samples;
-        for (std::uint64_t maximum = 1; maximum <= 1 << 16; maximum = maximum * 3 / 2 + 1) {
-            INFO("pixel " << pixel << ", maximum " << maximum);
-            const PixelPlan plan = plan_of(pixel, target, maximum);
-            CHECK(plan.reaches(maximum));
-            CHECK(std::min(plan.samples, maximum) == std::min(whole.samples, maximum));
-            CHECK((!plan.is_final || plan == whole));
-        }
+    struct Sizes {
+        double target;
+        std::uint64_t usual, least, pilot;
+    };
+    for (const Sizes& sizes : {Sizes{1.0, 16, 16, 16}, Sizes{0.25, 16, 16, 16}, Sizes{0.125, 64, 32, 16},
+                               Sizes{0.03125, 1024, 512, 32}, Sizes{0.03, 1024, 512, 32},
+                               Sizes{0.02, 2048, 1024, 64}, Sizes{1e-4, 1 << 26, 1 << 25, 1 << 21}}) {
+        INFO(sizes.target);
+        const AdaptiveRule rule(sizes.target);
+        CHECK(rule.usual() == sizes.usual);
+        CHECK(rule.least() == sizes.least);
+        CHECK(rule.pilot_size() == sizes.pilot);
     }
-    CHECK(std::popcount(numbers) >= 6); // or this has tested nothing
 }
 
-TEST_CASE("a pilot takes each of its samples once, and no more than it needs", "[unit][adaptive]")
+TEST_CASE("a pixel's number of samples grows with the power 2/3 of its deviation", "[unit][adaptive]")
 {
-    const auto taken = [](double target, std::uint64_t maximum) {
-        std::uint64_t next = 0;
-        plan_pixel(target, maximum, [&](std::uint64_t number) {
-            CHECK(number == next++);
-            return pilot_value(3, number);
-        });
-        return next;
-    };
-    CHECK(taken(1e-6, least_adaptive_samples) == 0); // nothing to decide
-    CHECK(taken(1e3, 1 << 20) == first_pilot);
-    CHECK(taken(1e-6, first_pilot * samples_per_pilot_sample) == first_pilot);
-    CHECK(taken(1e-6, first_pilot * samples_per_pilot_sample + 1) == 2 * first_pilot);
-    CHECK(taken(1e-6, 1 << 14) == (1 << 14) / samples_per_pilot_sample);
-}
-
-TEST_CASE("pixels without noise get the least number of samples, brighter noise gets more",
-          "[unit][adaptive]")
-{
-    const auto samples = [](double value) {
-        return plan_pixel(0.02, 1 << 16, [&](std::uint64_t) { return value; });
-    };
-    for (const double value : {0.0, 1e-30, 0.3, 1e9})
-        CHECK(samples(value) == PixelPlan{least_adaptive_samples, true});
-    // Scaling light far above the floor changes nothing; far below it, less light is less noise.
-    const auto scaled = [](double scale) {
-        return plan_pixel(0.01, 1 << 20, [&](std::uint64_t i) { return scale * pilot_value(4, i); }).samples;
-    };
-    CHECK(scaled(64.0) == scaled(64.0 * 64.0));
-    CHECK(scaled(1e-6) == least_adaptive_samples);
-    CHECK(scaled(64.0) > scaled(1e-6));
-}
-
-TEST_CASE("a plan survives as a word, and one that knows more of a pixel is larger", "[unit][adaptive]")
-{
-    for (std::uint64_t samples = least_adaptive_samples; samples <= film_max_samples; samples *= 2) {
-        for (const bool is_final : {false, true})
-            CHECK(PixelPlan::from_word(PixelPlan{samples, is_final}.word()) == PixelPlan{samples, is_final});
-        CHECK(PixelPlan{samples, true}.word() > PixelPlan{samples, false}.word());
-        CHECK(PixelPlan{2 * samples, false}.word() > PixelPlan{samples, true}.word());
-    }
-    CHECK(PixelPlan::from_word(0) == PixelPlan{});
-    CHECK_FALSE(PixelPlan{}.reaches(1));
-    CHECK(PixelPlan{16, true}.reaches(1000));
-    CHECK(PixelPlan{256, false}.reaches(256));
-    CHECK_FALSE(PixelPlan{256, false}.reaches(257));
+    const AdaptiveRule rule(1.0 / 64.0); // 4096 samples, a pilot of 128
+    CHECK(rule.samples(even(128, 1.0)) == 4096);
+    // 2^(-3/4) is where 4096 and 2048 meet.
+    CHECK(rule.samples(even(128, 0.596)) == 4096);
+    CHECK(rule.samples(even(128, 0.594)) == 2048);
+    CHECK(rule.samples(even(128, 0.01)) == rule.least());
+    CHECK(rule.samples(even(128, 0.0)) == rule.least());
+    // A deviation of nearly 2; and of 1/8 of that where the floor is 8 times the mean.
+    CHECK(rule.samples(rare(128)) == 8192);
+    std::vector<double> dark = rare(128);
+    for (double& value : dark) value *= adaptive_floor / 8.0;
+    CHECK(rule.samples(dark) == rule.least());
+    // Far above the floor it is relative to the pixel.
+    std::vector<double> bright = even(128, 0.7);
+    const std::uint64_t samples = rule.samples(bright);
+    for (double& value : bright) value *= 1e6;
+    CHECK(rule.samples(bright) == samples);
+    // No pilot asks for more than a film holds.
+    CHECK(AdaptiveRule(1e-4).samples(rare(1 << 21)) == film_max_samples);
 }
