@@ -250,8 +250,9 @@ Rendering::Rendering(const RenderJob& job, const RenderOptions& options, RenderS
     if (state_.film.plans() != plans_of(options))
         throw Error("the samples so far are those of an adaptive rendering, or these are to be: not both");
     if (options.adaptive && job.sampler->depends_on_total())
-        throw Error("the sampler depends on the total number of samples per pixel, and an adaptive rendering has "
-                    "another number in each pixel");
+        throw Error(
+            "the sampler depends on the total number of samples per pixel, and an adaptive rendering has "
+            "another number in each pixel");
 }
 
 bool Rendering::take(const SampleSet& wanted, const ProgressReport& progress, const Pause& pause,

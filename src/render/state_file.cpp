@@ -24,7 +24,7 @@ namespace {
 constexpr int format_version = 3;
 constexpr int version_without_layers = 2; // is read as well
 constexpr const char* plans_name = "plumb:statePlans";
-const std::string no_samples = "none";    // files keep no empty text
+const std::string no_samples = "none"; // files keep no empty text
 
 constexpr std::size_t small_count = std::tuple_size_v<Film::Words>;
 constexpr std::size_t beauty_count = small_count + std::tuple_size_v<Film::LargeWords>;
@@ -320,12 +320,11 @@ StateFile empty_state(const WordImage& image)
     ChannelSet layers;
     if (version != version_without_layers)
         layers = layers_from(entries.get<std::string>("plumb:stateLayers"));
-    StateFile file{
-        {Film(data, image.full_width, image.full_height, std::move(layers),
-              entries.has(plans_name) ? Plans::kept : Plans::none),
-         *samples, rays, left_out},
-        without(header, "plumb:state"),
-        {image.full_width, image.full_height}};
+    StateFile file{{Film(data, image.full_width, image.full_height, std::move(layers),
+                         entries.has(plans_name) ? Plans::kept : Plans::none),
+                    *samples, rays, left_out},
+                   without(header, "plumb:state"),
+                   {image.full_width, image.full_height}};
     file.state.seconds = seconds;
     return file;
 }

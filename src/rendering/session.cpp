@@ -41,8 +41,9 @@ StopRules stop_rules(const RenderTask& task)
                     task.settings.stop.relative_error};
     const bool other_rule = rules.seconds || rules.relative_error;
     if (other_rule && task.settings.samples.adaptive)
-        throw Error("--adaptive decides the number of samples of each pixel: give the maximum with --spp, not "
-                    "with --time or --target-error");
+        throw Error(
+            "--adaptive decides the number of samples of each pixel: give the maximum with --spp, not "
+            "with --time or --target-error");
     if (!other_rule || task.settings.samples.per_pixel) return rules;
     if (task.scene.job.sampler->depends_on_total())
         throw Error(
@@ -67,8 +68,9 @@ struct RenderSession::Impl {
     {
         task.options.threads = options.threads;
         if (options.part && options.part->by == PartBy::samples && task.options.adaptive)
-            throw Error("an adaptive rendering has no parts by samples: each would take the pilot of every pixel "
-                        "again; use parts by tiles");
+            throw Error(
+                "an adaptive rendering has no parts by samples: each would take the pilot of every pixel "
+                "again; use parts by tiles");
         if (const RenderJob& job = task.scene.job; task.options.adaptive && job.sampler->depends_on_total())
             throw Error(fmt::format("the sampler '{}' depends on the total number of samples per pixel: with "
                                     "--adaptive, use --sampler sobol",

@@ -33,8 +33,7 @@ void write_dialect(JsonWriter& json, const Dialect& dialect)
 
 double mean_samples(const Report& report)
 {
-    const PixelRect window =
-        report.crop.value_or(PixelRect{0, 0, report.resolution.x, report.resolution.y});
+    const PixelRect window = report.crop.value_or(PixelRect{0, 0, report.resolution.x, report.resolution.y});
     return static_cast<double>(report.evidence.samples) /
            (static_cast<double>(window.width) * static_cast<double>(window.height));
 }

@@ -72,7 +72,8 @@ bool same_bits(const RenderState& a, const RenderState& b)
 {
     const PixelRect& window = a.film.window();
     if (window != b.film.window() || a.film.plans() != b.film.plans() || a.taken != b.taken ||
-        a.rays.total() != b.rays.total()) return false;
+        a.rays.total() != b.rays.total())
+        return false;
     for (int y = window.y; y < window.y + window.height; ++y)
         for (int x = window.x; x < window.x + window.width; ++x)
             if (a.film.words({x, y}) != b.film.words({x, y}) ||

@@ -143,8 +143,8 @@ TEST_CASE("the error bars of adaptive renderings are true", "[statistical][adapt
         double sum = 0.0;
         for (int y = 0; y < 15; ++y) {
             for (int x = 0; x < 20; ++x) {
-                const double difference = static_cast<double>(image_a.color(x, y).g) -
-                                          static_cast<double>(image_b.color(x, y).g);
+                const double difference =
+                    static_cast<double>(image_a.color(x, y).g) - static_cast<double>(image_b.color(x, y).g);
                 sum += difference * difference - static_cast<double>(a.variance_of_mean({x, y}).g) -
                        static_cast<double>(b.variance_of_mean({x, y}).g);
             }
