@@ -91,8 +91,8 @@ Means find_means(const Image& image)
     const std::vector<std::string>& names = image.channel_names();
     for (std::size_t i = 0; i < names.size(); ++i) {
         const std::string& name = names[i];
-        if (name == "contributing" || name.starts_with("variance") || name.starts_with("Variance") ||
-            name.starts_with("RelativeVariance") || name.starts_with("m2_"))
+        if (name == "contributing" || name == "samples" || name.starts_with("variance") ||
+            name.starts_with("Variance") || name.starts_with("RelativeVariance") || name.starts_with("m2_"))
             continue;
         means.places.push_back(i);
         means.names.push_back(name);

@@ -8,6 +8,23 @@
 
 namespace plumb {
 
+namespace {
+
+SampleSet::Range counts_of_pixels(const Film& film)
+{
+    const PixelRect& window = film.window();
+    SampleSet::Range counts{UINT64_MAX, 0};
+    for (int y = window.y; y < window.y + window.height; ++y) {
+        for (int x = window.x; x < window.x + window.width; ++x) {
+            const std::uint64_t count = film.sample_count({x, y});
+            counts = {std::min(counts.least, count), std::max(counts.most, count)};
+        }
+    }
+    return counts;
+}
+
+} // namespace
+
 std::optional<NoiseEstimate> estimate_noise(const Film& film)
 {
     const PixelRect& window = film.window();
@@ -73,8 +90,16 @@ Evidence make_evidence(BiasReport before, const RenderState& state, const std::s
                       state.taken.samples_per_pixel(window).least,
                       state.taken,
                       true,
+                      state.samples(),
+                      {},
                       stop};
-    evidence.even = state.taken == SampleSet(SampleBlock{window, 0, evidence.samples_per_pixel});
+    if (state.film.plans() == Plans::kept) {
+        const SampleSet::Range counts = counts_of_pixels(state.film);
+        evidence.samples_per_pixel = counts.least;
+        evidence.most_samples_per_pixel = counts.most;
+    }
+    evidence.even = state.film.plans() == Plans::none &&
+                    state.taken == SampleSet(SampleBlock{window, 0, evidence.samples_per_pixel});
     std::vector<std::string>& biases = evidence.ledger.biases;
     if (state.left_out.count > 0)
         biases.push_back(fmt::format("{} samples were discarded", state.left_out.count));

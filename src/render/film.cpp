@@ -41,7 +41,7 @@ struct Film::LargeSquares {
     }
 };
 
-Film::Film(PixelRect window, int full_width, int full_height, ChannelSet layers)
+Film::Film(PixelRect window, int full_width, int full_height, ChannelSet layers, Plans plans)
     : window_(window),
       full_width_(full_width),
       full_height_(full_height),
@@ -49,12 +49,13 @@ Film::Film(PixelRect window, int full_width, int full_height, ChannelSet layers)
 {
     if (layers.size() > max_layers)
         throw Error(fmt::format("a film has at most {} layers, not {}", max_layers, layers.size()));
-    const std::size_t bytes = bytes_per_pixel(layers);
+    const std::size_t bytes = bytes_per_pixel(layers, plans);
     const std::size_t pixels =
         static_cast<std::size_t>(window.width) * static_cast<std::size_t>(window.height);
     try {
         pixels_.resize(pixels);
         if (!layers.empty()) layers_ = std::make_unique<LayerSums>(std::move(layers), pixels);
+        if (plans == Plans::kept) plans_.resize(pixels);
     } catch (const std::bad_alloc&) {
         throw Error(fmt::format("not enough memory for a film of {}x{} pixels ({} bytes each)", window.width,
                                 window.height, bytes));
@@ -62,9 +63,10 @@ Film::Film(PixelRect window, int full_width, int full_height, ChannelSet layers)
     static_assert(sizeof(Pixel) == 112);
 }
 
-std::size_t Film::bytes_per_pixel(const ChannelSet& layers)
+std::size_t Film::bytes_per_pixel(const ChannelSet& layers, Plans plans)
 {
-    return sizeof(Pixel) + LayerSums::bytes_per_pixel(layers);
+    return sizeof(Pixel) + LayerSums::bytes_per_pixel(layers) +
+           (plans == Plans::kept ? sizeof(std::uint32_t) : 0);
 }
 
 Film::Film(Film&&) noexcept = default;
@@ -179,8 +181,10 @@ Image Film::develop(Channels channels) const
 {
     const bool evidence = channels == Channels::color_and_evidence;
     std::vector<std::string> names = channel_names();
-    const std::size_t beauty = evidence ? 7 : 3;
+    const bool counts = evidence && plans() == Plans::kept;
+    const std::size_t beauty = counts ? 8 : evidence ? 7 : 3;
     if (evidence) names.insert(names.begin() + 3, {"variance.R", "variance.G", "variance.B", "contributing"});
+    if (counts) names.insert(names.begin() + 7, "samples");
     Image image(window_, full_width_, full_height_, std::move(names));
     const std::vector<ShareFamily> families = share_families(layers());
     parallel_for(static_cast<std::size_t>(window_.height), 0, [&](std::size_t row) {
@@ -194,6 +198,7 @@ Image Film::develop(Channels channels) const
             if (!evidence) continue;
             for (int c = 0; c < 3; ++c) out[3 + c] = static_cast<float>(variance_of_mean(at, c));
             out[6] = static_cast<float>(pixels_[at].contributing);
+            if (counts) out[7] = static_cast<float>(pixels_[at].count);
         }
     });
     return image;
@@ -204,6 +209,10 @@ Film& Film::operator+=(const Film& other)
     if (layers() != other.layers())
         throw Error(fmt::format("films with different layers cannot be added: one has {}, the other {}",
                                 layer_names(layers()), layer_names(other.layers())));
+    if (plans() != other.plans())
+        throw Error("films of which one keeps plans and the other does not cannot be added");
+    // A plan is a function of the pixel: whoever has one has the same.
+    for (std::size_t i = 0; i < plans_.size(); ++i) plans_[i] = std::max(plans_[i], other.plans_[i]);
     if (layers_) *layers_ += *other.layers_;
     for (std::size_t i = 0; i < pixels_.size(); ++i) {
         Pixel& mine = pixels_[i];

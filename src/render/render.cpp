@@ -5,13 +5,16 @@
 #include "base/float_mode.h"
 #include "base/parallel.h"
 #include "plumb/base/error.h"
+#include "plumb/render/adaptive.h"
 #include "plumb/scene/tracer.h"
 #include "render/film_edge.h"
 #include "render/sample_layers.h"
 #include "render/tiles.h"
 
 #include <atomic>
+#include <bit>
 #include <chrono>
+#include <cmath>
 #include <mutex>
 #include <tuple>
 
@@ -27,6 +30,8 @@ using Clock = std::chrono::steady_clock;
 // Samples a pixel gets before the next tile's turn: few enough for a lively progress report, many enough for a tile
 // to stay in the cache.
 constexpr std::uint64_t samples_per_pass = 16;
+// Of an adaptive rendering, whose later passes have few pixels.
+constexpr std::uint64_t most_samples_per_pass = 1024;
 
 struct SampleTaken {
     Color radiance;
@@ -63,6 +68,7 @@ struct Worker {
     Tracer tracer;
     std::unique_ptr<Sampler> sampler;
     LeftOut left_out;
+    std::vector<double> pilot; // of the pixel that decides
 };
 
 // One line of the image's progress at a time, whichever thread is free to report it.
@@ -72,24 +78,42 @@ public:
         : report_(report), before_(before), total_(total), done_(before)
     {}
 
+    // The total is what the plans of some pixels let expect of all of them.
+    void add_plan(std::uint64_t samples)
+    {
+        planned_ += samples;
+        ++pixels_planned_;
+    }
+    void expect_plans_of(std::uint64_t pixels) { pixels_ = pixels; }
+
     void add(std::uint64_t samples, std::uint64_t rays)
     {
         done_ += samples;
         rays_ += rays;
         if (!report_) return;
         const std::unique_lock lock(mutex_, std::try_to_lock);
-        if (lock) report_({done_, total_, before_, rays_, seconds()});
+        if (lock) report_({done_, total(), before_, rays_, seconds()});
     }
 
     double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
 private:
+    std::uint64_t total() const
+    {
+        if (pixels_planned_ == 0) return total_;
+        const double each = static_cast<double>(planned_) / static_cast<double>(pixels_planned_);
+        return std::max<std::uint64_t>(done_, std::llround(each * static_cast<double>(pixels_)));
+    }
+
     const ProgressReport& report_;
     const std::uint64_t before_;
     const std::uint64_t total_;
     const Clock::time_point start_ = Clock::now();
     std::atomic<std::uint64_t> done_;
     std::atomic<std::uint64_t> rays_ = 0;
+    std::uint64_t pixels_ = 0; // which are to have plans
+    std::atomic<std::uint64_t> pixels_planned_ = 0;
+    std::atomic<std::uint64_t> planned_ = 0;
     std::mutex mutex_;
 };
 
@@ -116,10 +140,37 @@ void check_total(const RenderJob& job, std::uint64_t end, std::uint64_t total)
                                 end - 1, total));
 }
 
+Plans plans_of(const RenderOptions& options)
+{
+    return options.adaptive ? Plans::kept : Plans::none;
+}
+
+// Of a pilot's sample; of one that the film would leave out: 0.
+double pilot_value(const SampleTaken& sample)
+{
+    const Color value = sample.radiance * sample.weight;
+    return is_finite(value) ? std::max(static_cast<double>(luminance(value)), 0.0) : 0.0;
+}
+
+// Tells the reporter of the plans that there are, and of how many there are to be.
+void expect_plans(const Film& film, const SampleSet& wanted, std::uint64_t total, Reporter& reporter)
+{
+    const PixelRect& window = film.window();
+    reporter.expect_plans_of(wanted.count() /
+                             std::max<std::uint64_t>(wanted.samples_per_pixel(window).most, 1));
+    for (int y = window.y; y < window.y + window.height; ++y)
+        for (int x = window.x; x < window.x + window.width; ++x)
+            if (const std::uint64_t plan = film.plan({x, y}); plan > 0)
+                reporter.add_plan(std::min(plan, total));
+}
+
 RenderState nothing_taken(const RenderJob& job, const RenderOptions& options)
 {
     const Vec2i size = job.camera->resolution();
-    return {Film(render_window(job, options), size.x, size.y, render_layers(job, options)), {}, {}, {}};
+    return {Film(render_window(job, options), size.x, size.y, render_layers(job, options), plans_of(options)),
+            {},
+            {},
+            {}};
 }
 
 } // namespace
@@ -137,6 +188,16 @@ LeftOut& LeftOut::operator+=(const LeftOut& other)
     add(other.first);
     count += other.count - 1;
     return *this;
+}
+
+std::uint64_t RenderState::samples() const
+{
+    if (film.plans() == Plans::none) return taken.count();
+    const PixelRect& window = film.window();
+    std::uint64_t samples = left_out.count;
+    for (int y = window.y; y < window.y + window.height; ++y)
+        for (int x = window.x; x < window.x + window.width; ++x) samples += film.sample_count({x, y});
+    return samples;
 }
 
 RenderState& RenderState::operator+=(const RenderState& other)
@@ -186,6 +247,12 @@ Rendering::Rendering(const RenderJob& job, const RenderOptions& options, RenderS
     if (const ChannelSet wanted = render_layers(job, options); state_.film.layers() != wanted)
         throw Error(fmt::format("the samples so far have the layers {}, not {}",
                                 layer_names(state_.film.layers()), layer_names(wanted)));
+    if (state_.film.plans() != plans_of(options))
+        throw Error("the samples so far are those of an adaptive rendering, or these are to be: not both");
+    if (options.adaptive && job.sampler->depends_on_total())
+        throw Error(
+            "the sampler depends on the total number of samples per pixel, and an adaptive rendering has "
+            "another number in each pixel");
 }
 
 bool Rendering::take(const SampleSet& wanted, const ProgressReport& progress, const Pause& pause,
@@ -200,11 +267,32 @@ bool Rendering::take(const SampleSet& wanted, const ProgressReport& progress, co
     }
     const std::uint64_t total = render_samples(job_, options_);
     check_total(job_, end, total);
-    Reporter reporter(progress, (wanted & state_.taken).count(), wanted.count());
+    std::optional<AdaptiveRule> rule;
+    if (options_.adaptive) rule.emplace(*options_.adaptive);
+    Reporter reporter(progress, rule ? state_.samples() : (wanted & state_.taken).count(), wanted.count());
+    if (rule) expect_plans(state_.film, wanted, total, reporter);
     const SampleLayers layers(job_, options_);
     oneapi::tbb::enumerable_thread_specific<Worker> workers([&] { return Worker(job_, total, layers); });
     const FilmEdge edge(*job_.filter, *job_.camera);
     std::atomic<bool> paused = false;
+
+    // Where the pixel's samples of the block end. Below the least number of samples there is nothing to decide.
+    const auto end_of_pixel = [&](Worker& worker, Vec2i pixel, const SampleBlock& block) {
+        if (!rule || total <= rule->least()) return block.last;
+        std::uint64_t plan = state_.film.plan(pixel);
+        if (plan == 0) {
+            worker.pilot.resize(rule->pilot_size());
+            for (std::uint64_t i = 0; i < worker.pilot.size(); ++i) {
+                if (!layers.empty()) worker.layers.start(worker.tracer.counts());
+                worker.pilot[i] = pilot_value(take_sample(job_, edge, worker.tracer, *worker.sampler,
+                                                          options_.seed, pixel, first_pilot_sample + i));
+            }
+            plan = rule->samples(worker.pilot);
+            state_.film.set_plan(pixel, static_cast<std::uint32_t>(plan));
+            reporter.add_plan(std::min(plan, total));
+        }
+        return std::min(block.last, std::max(block.first, plan));
+    };
 
     // How much of the block was done: its first rows.
     const auto take_block = [&](const SampleBlock& block) {
@@ -213,6 +301,7 @@ bool Rendering::take(const SampleSet& wanted, const ProgressReport& progress, co
         const std::uint64_t rays_before = worker.tracer.counts().total();
         const PixelRect& tile = block.pixels;
         SampleBlock done = block;
+        std::uint64_t samples = 0;
         for (int y = tile.y; y < tile.y + tile.height; ++y) {
             done.pixels.height = y - tile.y;
             if (pause && (paused || pause())) {
@@ -220,7 +309,9 @@ bool Rendering::take(const SampleSet& wanted, const ProgressReport& progress, co
                 break;
             }
             for (int x = tile.x; x < tile.x + tile.width; ++x) {
-                for (std::uint64_t index = block.first; index < block.last; ++index) {
+                const std::uint64_t last = end_of_pixel(worker, {x, y}, block);
+                samples += last - block.first;
+                for (std::uint64_t index = block.first; index < last; ++index) {
                     if (!layers.empty()) worker.layers.start(worker.tracer.counts());
                     const SampleTaken sample =
                         take_sample(job_, edge, worker.tracer, *worker.sampler, options_.seed, {x, y}, index);
@@ -237,13 +328,14 @@ bool Rendering::take(const SampleSet& wanted, const ProgressReport& progress, co
             done.pixels.height = y - tile.y + 1;
         }
         if (tile_report && done.pixels.height > 0) tile_report(state_.film, done.pixels);
-        reporter.add(done.count(), worker.tracer.counts().total() - rays_before);
+        reporter.add(samples, worker.tracer.counts().total() - rays_before);
         return done;
     };
 
-    for (; first < end && !paused; first += samples_per_pass) {
-        std::vector<SampleBlock> work =
-            cut_into_work(missing, first, first + samples_per_pass, options_.tile_size);
+    for (std::uint64_t pass; first < end && !paused; first += pass) {
+        pass = rule ? std::clamp(std::bit_floor(first), samples_per_pass, most_samples_per_pass)
+                    : samples_per_pass;
+        std::vector<SampleBlock> work = cut_into_work(missing, first, first + pass, options_.tile_size);
         parallel_for(work.size(), options_.threads, [&](std::size_t i) { work[i] = take_block(work[i]); });
         state_.taken = state_.taken | SampleSet(work);
     }

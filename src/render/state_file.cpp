@@ -5,6 +5,7 @@
 #include "base/parallel.h"
 #include "image/image_words.h"
 #include "plumb/base/error.h"
+#include "plumb/render/adaptive.h"
 #include "render/state_hash.h"
 
 #include <algorithm>
@@ -22,7 +23,8 @@ namespace {
 
 constexpr int format_version = 3;
 constexpr int version_without_layers = 2; // is read as well
-const std::string no_samples = "none";    // files keep no empty text
+constexpr const char* plans_name = "plumb:statePlans";
+const std::string no_samples = "none"; // files keep no empty text
 
 constexpr std::size_t small_count = std::tuple_size_v<Film::Words>;
 constexpr std::size_t beauty_count = small_count + std::tuple_size_v<Film::LargeWords>;
@@ -45,19 +47,36 @@ std::vector<std::string> word_names(const Film& film)
     add_names(names, "large");
     const std::vector<std::string> layers = film.layer_word_names();
     names.insert(names.end(), layers.begin(), layers.end());
+    if (film.plans() == Plans::kept) names.emplace_back("plan");
     return names;
 }
 
 AllWords room_for_words(const Film& film)
 {
-    return AllWords(beauty_count + film.layer_word_names().size());
+    return AllWords(beauty_count + film.layer_word_names().size() + (film.plans() == Plans::kept ? 1 : 0));
+}
+
+// Those of the layers.
+template <class Words>
+auto layer_words(const Film& film, Words& all)
+{
+    return std::span(all).subspan(beauty_count,
+                                  all.size() - beauty_count - (film.plans() == Plans::kept ? 1 : 0));
+}
+
+// Whether a pixel with so many accepted samples can have the plan.
+bool is_possible_plan(std::uint32_t plan, std::uint64_t count)
+{
+    return plan == 0 || (std::has_single_bit(plan) && plan >= least_adaptive_samples &&
+                         plan <= film_max_samples && count <= plan);
 }
 
 void get_words(const Film& film, Vec2i pixel, AllWords& all)
 {
     const Film::Words words = film.words(pixel);
     std::copy(words.begin(), words.end(), all.begin());
-    film.layer_words(pixel, std::span(all).subspan(beauty_count));
+    film.layer_words(pixel, layer_words(film, all));
+    if (film.plans() == Plans::kept) all.back() = film.plan(pixel);
     if (!film.has_large_squares()) return;
     const Film::LargeWords large = film.large_words(pixel);
     std::copy(large.begin(), large.end(), all.begin() + small_count);
@@ -71,7 +90,8 @@ void set_words(Film& film, Vec2i pixel, const AllWords& all)
     Film::LargeWords large;
     std::copy_n(all.begin() + small_count, large.size(), large.begin());
     if (large != Film::LargeWords{}) film.set_large_words(pixel, large);
-    film.set_layer_words(pixel, std::span(all).subspan(beauty_count));
+    film.set_layer_words(pixel, layer_words(film, all));
+    if (film.plans() == Plans::kept) film.set_plan(pixel, all.back());
 }
 
 // part(y) for each row of the window, on all threads.
@@ -154,7 +174,8 @@ bool is_possible(const Film& film, const AllWords& words, std::uint64_t samples)
         if (!is_below(4 * channel + 3, count << 5) || !is_below(12 + 4 * channel + 3, count << 4) ||
             !is_below(small_count + 4 * channel + 3, count))
             return false;
-    return film.can_have_layer_words(std::span(words).subspan(beauty_count), count);
+    if (film.plans() == Plans::kept && !is_possible_plan(words.back(), count)) return false;
+    return film.can_have_layer_words(layer_words(film, words), count);
 }
 
 // Returns whether all of the row is possible.
@@ -299,10 +320,11 @@ StateFile empty_state(const WordImage& image)
     ChannelSet layers;
     if (version != version_without_layers)
         layers = layers_from(entries.get<std::string>("plumb:stateLayers"));
-    StateFile file{
-        {Film(data, image.full_width, image.full_height, std::move(layers)), *samples, rays, left_out},
-        without(header, "plumb:state"),
-        {image.full_width, image.full_height}};
+    StateFile file{{Film(data, image.full_width, image.full_height, std::move(layers),
+                         entries.has(plans_name) ? Plans::kept : Plans::none),
+                    *samples, rays, left_out},
+                   without(header, "plumb:state"),
+                   {image.full_width, image.full_height}};
     file.state.seconds = seconds;
     return file;
 }
@@ -316,6 +338,7 @@ std::vector<unsigned char> encode_state(const RenderState& state, Vec2i resoluti
     WordImage image{window, resolution.x, resolution.y, {"R", "G", "B"}, writer.channels(), header};
     image.metadata.emplace_back("plumb:state", format_version);
     image.metadata.emplace_back("plumb:stateLayers", to_text(state.film.layers()));
+    if (state.film.plans() == Plans::kept) image.metadata.emplace_back(plans_name, "adaptive");
     image.metadata.emplace_back("plumb:stateSamples", state.taken.empty() ? no_samples : state.taken.text());
     image.metadata.emplace_back(
         "plumb:stateRays", fmt::format("{} {} {}", state.rays.camera, state.rays.bounce, state.rays.shadow));

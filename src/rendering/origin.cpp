@@ -90,6 +90,7 @@ Metadata scene_header(const RenderTask& task)
     if (scene.job.sampler->depends_on_total())
         add("plumb:samplerTotal", static_cast<int>(task.options.samples_per_pixel));
     if (!scene.job.sampler->is_independent()) add("plumb:errorBars", "upper bounds");
+    if (task.options.adaptive) add("plumb:adaptive", fmt::format("{}", *task.options.adaptive));
     add("plumb:seed", std::to_string(settings.samples.seed));
     add("plumb:language", language_version);
     add("plumb:dialect", std::string(to_string(scene.dialect.name)));
@@ -142,6 +143,8 @@ Metadata evidence_header(const Evidence& evidence)
         header.emplace_back(name, std::move(value));
     };
     add("plumb:samplesPerPixel", static_cast<int>(evidence.samples_per_pixel)); // at most 2^26
+    if (evidence.most_samples_per_pixel)
+        add("plumb:mostSamplesPerPixel", static_cast<int>(*evidence.most_samples_per_pixel));
     if (!evidence.even) add("plumb:samplesTaken", evidence.taken.text());
     if (!evidence.stop.empty()) add("plumb:stop", evidence.stop);
     const BiasReport& ledger = evidence.ledger;

@@ -15,7 +15,10 @@
 //     plumb:samplerTotal      how many samples the sampler spreads over a pixel; only if its points depend on that
 //     plumb:errorBars         "upper bounds": of a sampler whose samples are not independent; else they are estimates
 //     plumb:samplesPerPixel   the smallest number that a pixel has
-//     plumb:samplesTaken      which samples the pixels have (SampleSet::text); only if not all have the same number
+//     plumb:samplesTaken      which samples the pixels have (SampleSet::text); only if not all have the same number. With
+//                             plumb:adaptive those that are settled: a pixel has the ones that its plan has
+//     plumb:adaptive          the target error of pixels that decide how many samples they get; only then
+//     plumb:mostSamplesPerPixel   the largest number that a pixel has; only with plumb:adaptive
 //     plumb:stop              what ended the rendering before the number of samples that was asked for; only if so
 //     plumb:seed              a string, for it has 64 bits
 //     plumb:language          the version of the scene language (language_version); absent: 1

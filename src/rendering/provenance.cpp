@@ -144,6 +144,7 @@ std::vector<std::string> sample_changes(const Metadata& then, const Metadata& no
         {"plumb:integrator", "the integrator"},
         {"plumb:sampler", "the sampler"},
         {"plumb:samplerTotal", "the sampler's total number of samples"},
+        {"plumb:adaptive", "--adaptive"},
         {"plumb:seed", "the seed"},
         {"plumb:dialect", "the dialect"},
         {"plumb:emitters", "--emitters"},

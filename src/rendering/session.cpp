@@ -40,6 +40,10 @@ StopRules stop_rules(const RenderTask& task)
     StopRules rules{task.options.samples_per_pixel, task.settings.stop.seconds,
                     task.settings.stop.relative_error};
     const bool other_rule = rules.seconds || rules.relative_error;
+    if (other_rule && task.settings.samples.adaptive)
+        throw Error(
+            "--adaptive decides the number of samples of each pixel: give the maximum with --spp, not "
+            "with --time or --target-error");
     if (!other_rule || task.settings.samples.per_pixel) return rules;
     if (task.scene.job.sampler->depends_on_total())
         throw Error(
@@ -63,6 +67,14 @@ struct RenderSession::Impl {
           timer(options.checkpoint.every_seconds)
     {
         task.options.threads = options.threads;
+        if (options.part && options.part->by == PartBy::samples && task.options.adaptive)
+            throw Error(
+                "an adaptive rendering has no parts by samples: each would take the pilot of every pixel "
+                "again; use parts by tiles");
+        if (const RenderJob& job = task.scene.job; task.options.adaptive && job.sampler->depends_on_total())
+            throw Error(fmt::format("the sampler '{}' depends on the total number of samples per pixel: with "
+                                    "--adaptive, use --sampler sobol",
+                                    task.scene.sampler));
     }
 
     bool has_checkpoint() const { return !options.checkpoint.file.empty(); }
@@ -109,7 +121,7 @@ struct RenderSession::Impl {
             throw Error(fmt::format("cannot resume from '{}': it has samples that were not requested: {}",
                                     name, more.text()));
         say(Severity::note,
-            fmt::format("resuming from '{}', which has {} samples", name, count_text(state.taken.count())));
+            fmt::format("resuming from '{}', which has {} samples", name, count_text(state.samples())));
         rendering.emplace(task.scene.job, task.options, std::move(state));
         return true;
     }

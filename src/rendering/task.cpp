@@ -44,6 +44,7 @@ RenderTask make_task(SceneFile& file, const RenderSettings& given)
     task.settings.scene = file.settings();
     task.options.samples_per_pixel = settings.samples.per_pixel.value_or(0);
     task.options.seed = settings.samples.seed;
+    task.options.adaptive = settings.samples.adaptive;
     task.options.crop = settings.view.crop;
     task.options.aovs = aovs_of(settings.view, task.scene);
     task.options.splits = settings.view.splits;

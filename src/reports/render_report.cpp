@@ -31,6 +31,23 @@ void write_dialect(JsonWriter& json, const Dialect& dialect)
     json.end_object();
 }
 
+double mean_samples(const Report& report)
+{
+    const PixelRect window = report.crop.value_or(PixelRect{0, 0, report.resolution.x, report.resolution.y});
+    return static_cast<double>(report.evidence.samples) /
+           (static_cast<double>(window.width) * static_cast<double>(window.height));
+}
+
+void write_adaptive(JsonWriter& json, const Report& report)
+{
+    json.begin_object("adaptive");
+    json.number("target", *report.adaptive);
+    json.integer("least_spp", report.evidence.samples_per_pixel);
+    json.integer("most_spp", report.evidence.most_samples_per_pixel.value_or(0));
+    json.number("mean_spp", mean_samples(report));
+    json.end_object();
+}
+
 void write_image(JsonWriter& json, const Report& report)
 {
     const auto integers = [&](const char* key, const std::vector<int>& values) {
@@ -44,6 +61,7 @@ void write_image(JsonWriter& json, const Report& report)
     else
         json.null("crop");
     json.integer("spp", report.evidence.samples_per_pixel);
+    if (report.adaptive) write_adaptive(json, report);
     json.integer("seed", report.seed);
     json.integer("triangles", report.triangles);
 }
@@ -171,6 +189,7 @@ Report make_report(const RenderSession& session, Evidence evidence)
     report.integrator = scene.integrator;
     report.sampler = scene.sampler;
     report.noise_is_bound = !scene.job.sampler->is_independent();
+    report.adaptive = task.options.adaptive;
     report.seed = task.settings.samples.seed;
     report.resolution = scene.job.camera->resolution();
     report.crop = task.settings.view.crop;
@@ -180,7 +199,7 @@ Report make_report(const RenderSession& session, Evidence evidence)
     const PixelRect& window = state.film.window();
     report.is_black = is_black(state.film);
     report.lights = scene.job.scene->emitters().size();
-    report.film_bytes = Film::bytes_per_pixel(state.film.layers()) *
+    report.film_bytes = Film::bytes_per_pixel(state.film.layers(), state.film.plans()) *
                         static_cast<std::uint64_t>(window.width) * static_cast<std::uint64_t>(window.height);
     report.parse_seconds = scene.parse_seconds;
     report.build_seconds = scene.build_seconds;
@@ -198,15 +217,19 @@ std::vector<std::string> summary_of(const Report& report, const RenderTask& task
     std::vector<std::string> lines;
     const Evidence& evidence = report.evidence;
     lines.push_back(fmt::format("{}: {} samples in {}, {}", list_text(report.outputs),
-                                count_text(evidence.taken.count()), duration_text(report.render_seconds),
+                                count_text(evidence.samples), duration_text(report.render_seconds),
                                 rate_text(report.rays.total(), report.render_seconds)));
+    if (report.adaptive)
+        lines.push_back(fmt::format("adaptive: {} to {} samples per pixel, {:.1f} on average",
+                                    evidence.samples_per_pixel, evidence.most_samples_per_pixel.value_or(0),
+                                    mean_samples(report)));
     if (const auto& noise = evidence.noise)
         lines.push_back(fmt::format("noise: rmse {}{:.3g} (95 % interval {:.3g} to {:.3g})",
                                     report.noise_is_bound ? "at most " : "", noise->rmse, noise->low,
                                     noise->high));
     if (!evidence.ledger.biases.empty())
         lines.push_back(fmt::format("biased: {}", list_text(evidence.ledger.biases)));
-    if (report.is_black && report.lights > 0 && evidence.taken.count() > 0)
+    if (report.is_black && report.lights > 0 && evidence.samples > 0)
         lines.push_back(
             fmt::format("warning: the image is black, although there {}; 'renderer check {}' may say why",
                         report.lights == 1 ? "is a light" : fmt::format("are {} lights", report.lights),

@@ -19,7 +19,7 @@ std::string work_json(const Work& work, const std::vector<std::string>& outputs,
         json.end_object();
     }
     json.end_array();
-    json.integer("samples", work.file.state.taken.count());
+    json.integer("samples", work.file.state.samples());
     json.integer("missing", missing.count());
     json.boolean("complete", missing.empty());
     json.number("render_seconds", work.file.state.seconds);

@@ -146,6 +146,12 @@ std::span<const SettingRow<RenderSettings>> setting_rows<RenderSettings>()
         {"spp", "N", "samples per pixel (default: the scene's)", "the number of samples per pixel",
          Effect::coverage, [](const S& s) { return optional_text(s.samples.per_pixel); },
          [](S& s, Name n, Text t) { s.samples.per_pixel = parse_integer(n, t, 1, film_max_samples); }},
+        {"adaptive", "E",
+         "each pixel decides how many of the --spp samples it\n"
+         "gets, by its own error and this target",
+         "the adaptive target error", Effect::coverage,
+         [](const S& s) { return optional_text(s.samples.adaptive); },
+         [](S& s, Name n, Text t) { s.samples.adaptive = parse_double(n, t, 1e-4, 1.0); }},
         {"seed", "N", "seed of the random numbers, 64 bits (default 0)", "the seed", Effect::samples,
          [](const S& s) { return text_unless(s.samples.seed, std::uint64_t{0}); },
          [](S& s, Name n, Text t) { s.samples.seed = parse_integer(n, t, 0, UINT64_MAX); }},

@@ -71,11 +71,14 @@ int below(TestRandom& random, int limit)
 bool same_bits(const RenderState& a, const RenderState& b)
 {
     const PixelRect& window = a.film.window();
-    if (window != b.film.window() || a.taken != b.taken || a.rays.total() != b.rays.total()) return false;
+    if (window != b.film.window() || a.film.plans() != b.film.plans() || a.taken != b.taken ||
+        a.rays.total() != b.rays.total())
+        return false;
     for (int y = window.y; y < window.y + window.height; ++y)
         for (int x = window.x; x < window.x + window.width; ++x)
             if (a.film.words({x, y}) != b.film.words({x, y}) ||
-                a.film.large_words({x, y}) != b.film.large_words({x, y}))
+                a.film.large_words({x, y}) != b.film.large_words({x, y}) ||
+                (a.film.plans() == Plans::kept && a.film.plan({x, y}) != b.film.plan({x, y})))
                 return false;
     return true;
 }
@@ -93,7 +96,8 @@ RenderState take(const RenderJob& job, RenderOptions options, const SampleSet& w
                  const TempDirectory& directory)
 {
     const Vec2i size = job.camera->resolution();
-    RenderState state{Film(render_window(job, options), size.x, size.y), {}, {}, {}};
+    const Plans plans = options.adaptive ? Plans::kept : Plans::none;
+    RenderState state{Film(render_window(job, options), size.x, size.y, {}, plans), {}, {}, {}};
     for (bool done = false; !done;) {
         options.threads = 1 + below(random, 4);
         options.tile_size = 1 + below(random, 40);
@@ -141,9 +145,14 @@ void check_law(int cases)
             const int y = below(random, height);
             options.crop = PixelRect{x, y, 1 + below(random, width - x), 1 + below(random, height - y)};
         }
+        if (!job.sampler->depends_on_total() && random.next_1d() < 0.3f) {
+            options.adaptive = random.between(0.09, 0.35);
+            options.samples_per_pixel = static_cast<std::uint64_t>(1 + below(random, 80));
+        }
         const RenderState expected = render(job, options);
 
-        const PartBy by = random.next_1d() < 0.5f ? PartBy::tiles : PartBy::samples;
+        // Of an adaptive rendering each part by samples would take the pilots, and their rays, again.
+        const PartBy by = options.adaptive || random.next_1d() < 0.5f ? PartBy::tiles : PartBy::samples;
         const auto count = static_cast<std::uint64_t>(1 + below(random, 6));
         std::vector<RenderState> parts;
         for (std::uint64_t part = 0; part < count; ++part)

@@ -25,6 +25,7 @@ const Examples render_examples = {
     {"denoise", {"true"}},
     {"no-variance", {"true"}},
     {"spp", {"1", "67108864"}},
+    {"adaptive", {"0.02", "0.0001"}},
     {"seed", {"7", "18446744073709551615"}},
     {"size", {"65535x1", "640x480"}},
     {"crop", {"1,2,3,4"}},

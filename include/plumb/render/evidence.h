@@ -51,6 +51,10 @@ struct Evidence {
     std::uint64_t samples_per_pixel = 0; // the smallest number that a pixel has
     SampleSet taken;
     bool even = true; // every pixel has the samples from 0 to before that number, and no others
+    std::uint64_t samples = 0; // of all pixels, those left out included
+    // Of an adaptive rendering: the largest number that a pixel has. samples_per_pixel is the smallest, and `taken` are the
+    // samples that are settled (RenderState::taken).
+    std::optional<std::uint64_t> most_samples_per_pixel;
     std::string stop; // what ended the rendering, if not the number of samples
 };
 // A stop that knew nothing of the samples, and so biases nothing.

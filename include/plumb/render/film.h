@@ -13,7 +13,7 @@
 // of 2^18 and more, which few images have, are kept in a table aside, in units of 2^-20. 112 bytes a pixel.
 //
 // A film may have more channels than beauty: its layers (channel_set.h), which are part of what it is. They cost memory and
-// time only where there are some.
+// time only where there are some. So do plans, how many samples each pixel gets where pixels decide that (adaptive.h).
 
 #include "plumb/image/image.h"
 #include "plumb/math/color.h"
@@ -35,25 +35,30 @@ inline constexpr float film_max_value = 0x1p37f;
 inline constexpr std::uint64_t film_max_samples = max_samples_per_pixel;
 
 // What an image holds: R, G and B, or also variance.R, variance.G and variance.B (Film::variance_of_mean) and
-// contributing (Film::contributing_count). After them come the film's layers.
+// contributing (Film::contributing_count); of a film with plans also samples (Film::sample_count). After them come the
+// film's layers.
 enum class Channels { color, color_and_evidence };
 
 class LayerSums;
+
+// Whether a film keeps a plan for each pixel.
+enum class Plans { none, kept };
 
 class Film {
 public:
     // window: the pixels kept, of an image of full_width x full_height. Throws Error if memory is short or if there are more
     // than max_layers.
-    Film(PixelRect window, int full_width, int full_height, ChannelSet layers = {});
+    Film(PixelRect window, int full_width, int full_height, ChannelSet layers = {}, Plans plans = Plans::none);
     Film(Film&&) noexcept;
     Film& operator=(Film&&) noexcept;
     ~Film();
 
     // What a film with these layers takes in memory.
-    static std::size_t bytes_per_pixel(const ChannelSet& layers = {});
+    static std::size_t bytes_per_pixel(const ChannelSet& layers = {}, Plans plans = Plans::none);
 
     const PixelRect& window() const { return window_; }
     const ChannelSet& layers() const;
+    Plans plans() const { return plans_.empty() ? Plans::none : Plans::kept; }
 
     // pixel: in coordinates of the full image. weight: the filter's. Different pixels from different threads; one
     // pixel from one thread at a time.
@@ -68,6 +73,11 @@ public:
     // over n. Unbiased where samples are independent. Not a number, for unknown, below two samples.
     Color variance_of_mean(Vec2i pixel) const;
 
+    // A pixel's plan: how many samples it is to get (adaptive.h), 0 if that is not known yet. Only of a film that keeps them.
+    // As for add(): one pixel from one thread at a time.
+    std::uint32_t plan(Vec2i pixel) const { return plans_[index(pixel)]; }
+    void set_plan(Vec2i pixel, std::uint32_t plan) { plans_[index(pixel)] = plan; }
+
     // Mean of the accepted samples; black where there is none. The shares of a family, added up in double precision in any
     // order and rounded to float, are R, G and B: for this, one or two of them differ from the nearest float. Shares that
     // cancel do so only as far as their last bits allow.
@@ -79,7 +89,7 @@ public:
     std::vector<std::string> channel_names() const; // of both: "R", "G", "B", "normal.X" and so on
 
     // Adds what another film of the same window has: the film of all the samples of both, bit for bit. Throws Error, and adds
-    // nothing, if their layers differ.
+    // nothing, if their layers differ or only one of them keeps plans.
     Film& operator+=(const Film& other);
 
     // All that is known of a pixel, as 32-bit words, for files: sums and sums of squares of red, green and blue in units of
@@ -119,6 +129,7 @@ private:
     std::vector<Pixel> pixels_;
     std::unique_ptr<LargeSquares> large_squares_;
     std::unique_ptr<LayerSums> layers_; // null if there are none
+    std::vector<std::uint32_t> plans_;  // empty if it keeps none
 };
 
 } // namespace plumb

@@ -41,6 +41,8 @@ struct RenderOptions {
     std::optional<PixelRect> crop;  // inside the image
     std::vector<std::string> aovs;  // names of layers: aovs.h
     std::vector<LightSplit> splits; // more layers: light_split.h
+    // Each pixel decides how many of the samples it gets (adaptive.h), by this target; samples_per_pixel is the maximum.
+    std::optional<double> adaptive;
 };
 
 // Samples that were left out of the film. `first` is the smallest in the order (row, column, sample index).
@@ -61,10 +63,15 @@ struct LeftOut {
 // What has been rendered so far: enough to make the image, and to resume.
 struct RenderState {
     Film film;
-    SampleSet taken; // those left out included
+    // Those left out included. Of a film with plans: the samples that are settled, which those beyond a pixel's plan are
+    // without being taken.
+    SampleSet taken;
     RayCounts rays;
     LeftOut left_out;
     double seconds = 0.0; // of rendering
+
+    // How many samples were taken for the image, those left out included.
+    std::uint64_t samples() const;
 
     // Adds the work of another; of the same job, seed and window, and with none of its samples.
     RenderState& operator+=(const RenderState& other);
@@ -91,13 +98,15 @@ ChannelSet render_layers(const RenderJob& job, const RenderOptions& options);
 std::uint64_t render_samples(const RenderJob& job, const RenderOptions& options);
 int render_threads(const RenderOptions& options);
 
-// An image in the making. What a set of samples gives depends on job, seed and the set, and on nothing else: not on
-// threads, tiles, crop, or the order and the calls in which they are taken.
+// An image in the making. What a set of samples gives depends on job, seed, `adaptive` and the set, and on nothing else:
+// not on threads, tiles, crop, or the order and the calls in which they are taken. With `adaptive` a pixel has those samples
+// of the set that are before the end of its plan, and each of them is what it is without.
 class Rendering {
 public:
     // Throws what render_window() and render_layers() throw, and Error if memory is short.
     Rendering(const RenderJob& job, const RenderOptions& options);
-    // Resumes from a state of the same job, seed and window. Throws Error if it does not have the layers of the options.
+    // Resumes from a state of the same job, seed, window and `adaptive`. Throws Error if it does not have the layers of the
+    // options, or if only one of them is adaptive.
     Rendering(const RenderJob& job, const RenderOptions& options, RenderState state);
     Rendering(const Rendering&) = delete;
     Rendering& operator=(const Rendering&) = delete;

@@ -14,6 +14,8 @@
 //     plumb:stateSeconds   of rendering
 //     plumb:stateLeftOut   how many samples were left out, and which was the first: column, row, index, why, and the bits
 //                          of its value
+//     plumb:statePlans     "adaptive": the channel `plan` has how many samples each pixel is to get (Film::plan); only of
+//                          an adaptive rendering
 //     plumb:stateHash      of this header, the channels' names and the hashes of the rows
 //
 // The hash tells whether all of it is as it was written.

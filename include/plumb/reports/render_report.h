@@ -18,6 +18,7 @@ struct Report {
     std::string integrator;
     std::string sampler;
     bool noise_is_bound = false; // for the sampler's samples are not independent
+    std::optional<double> adaptive; // RenderOptions::adaptive
     std::uint64_t seed = 0;
     Vec2i resolution;
     std::optional<PixelRect> crop;

@@ -47,6 +47,8 @@ struct ViewSettings {
 struct SampleSettings {
     std::optional<std::uint64_t> per_pixel = {}; // from 1 to film_max_samples
     std::uint64_t seed = 0;
+    // Each pixel decides how many of them it gets, by this target error: adaptive.h.
+    std::optional<double> adaptive = {};
     friend bool operator==(const SampleSettings&, const SampleSettings&) = default;
 };
 

@@ -54,8 +54,7 @@ int run(const Options& options)
     write_json(options.json, work_json(work, options.outputs, checkpoint));
     if (options.quiet) return exit_code::done;
     print_log(fmt::format("{}: {} samples of {} part{}", list_text(outputs),
-                          count_text(work.file.state.taken.count()), parts.size(),
-                          parts.size() == 1 ? "" : "s"));
+                          count_text(work.file.state.samples()), parts.size(), parts.size() == 1 ? "" : "s"));
     if (!complaint.empty()) print_log("warning: " + complaint);
     return exit_code::done;
 }

@@ -51,8 +51,16 @@ void settle(Options& options)
         if (options.settings.stop != StopSettings())
             throw UsageError(
                 "a part is a fixed set of samples: use --part with --spp, not with --time or --target-error");
+        if (options.part->by == PartBy::samples && options.settings.samples.adaptive)
+            throw UsageError(
+                "--part-by samples and --adaptive cannot be used together: each part would take the "
+                "pilot of every pixel again; use --part-by tiles");
         options.checkpoint = options.outputs.front();
     }
+    if (options.settings.samples.adaptive && options.settings.stop != StopSettings())
+        throw UsageError(
+            "--adaptive decides the number of samples of each pixel: give the maximum with --spp, not "
+            "with --time or --target-error");
     check_screen_settings(options);
     if (options.resume && options.checkpoint.empty()) throw UsageError("--resume needs --checkpoint FILE");
     if (!options.checkpoint.empty() && !options.checkpoint.ends_with(".exr"))
@@ -115,8 +123,8 @@ OptionTable<Options> table()
                                   {"exposure", "tonemap", "denoise", "no-variance"}),
          live_options(&Options::live), json_option<Options>(), state_options(),
          setting_options<Options>(Topic::image, &Options::settings,
-                                  {"spp", "seed", "size", "crop", "aov", "split", "integrator", "sampler",
-                                   "time", "target-error"}),
+                                  {"spp", "adaptive", "seed", "size", "crop", "aov", "split", "integrator",
+                                   "sampler", "time", "target-error"}),
          scene_options<Options>(), threads_option<Options>(),
          setting_options<Options>(Topic::running, &Options::settings, {"isa"}), quiet_option<Options>(),
          verbose_option<Options>(),
