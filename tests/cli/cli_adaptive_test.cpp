@@ -49,7 +49,7 @@ TEST_CASE("a pixel of an adaptive image is that of a plain one with as many samp
 {
     const SceneDirectory directory;
     render(directory, with(adaptive, {"-o", "a.exr", "--aov", "rays"}));
-    const Image image = read_image(directory / "a.exr");
+    const Image image = read_image(directory / "a.exr", false);
     std::map<int, Image> plain;
     for (int y = 0; y < 12; ++y) {
         for (int x = 0; x < 16; ++x) {
@@ -57,7 +57,7 @@ TEST_CASE("a pixel of an adaptive image is that of a plain one with as many samp
             if (!plain.contains(samples)) {
                 const std::string file = std::to_string(samples) + ".exr";
                 render(directory, {"-o", file, "--spp", std::to_string(samples), "--aov", "rays"});
-                plain.emplace(samples, read_image(directory / file));
+                plain.emplace(samples, read_image(directory / file, false));
             }
             for (const std::string& channel : plain.at(samples).channel_names())
                 REQUIRE(value(image, channel, x, y) == value(plain.at(samples), channel, x, y));
@@ -98,8 +98,8 @@ TEST_CASE("adaptive images have the same bytes by threads, parts, checkpoints an
     CHECK(read_bytes(directory / "again.exr") == whole);
 
     render(directory, with(adaptive, {"--crop", "5,3,7,6", "-o", "crop.exr"}));
-    const Image image = read_image(directory / "whole.exr");
-    const Image crop = read_image(directory / "crop.exr");
+    const Image image = read_image(directory / "whole.exr", false);
+    const Image crop = read_image(directory / "crop.exr", false);
     REQUIRE(crop.data_window() == PixelRect{5, 3, 7, 6});
     for (int y = 3; y < 9; ++y)
         for (int x = 5; x < 12; ++x)
@@ -120,7 +120,7 @@ TEST_CASE("an adaptive rendering says how many samples its pixels have", "[cli][
     render(directory, {"-o", "plain.exr", "--spp", "16", "--json", "plain.json", "--checkpoint", "c.exr"});
     CHECK_THAT(read_bytes(directory / "plain.json"), !ContainsSubstring("adaptive"));
     for (const char* file : {"plain.exr", "c.exr"}) {
-        const Image image = read_image(directory / file);
+        const Image image = read_image(directory / file, false);
         const std::vector<std::string>& names = image.channel_names();
         CHECK(std::find(names.begin(), names.end(), "samples") == names.end());
         CHECK(std::find(names.begin(), names.end(), "plan") == names.end());
