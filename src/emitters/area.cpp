@@ -63,7 +63,8 @@ public:
         if (!(cosine > 0.0)) return {};
         const Color radiance = radiance_of(radiance_->color(*at));
         if (measure != Measure::area && has_solid_angle_)
-            if (const std::optional<float> pdf = shape_->solid_angle_pdf(receiver.position)) return {radiance, *pdf};
+            if (const std::optional<float> pdf = shape_->solid_angle_pdf(receiver.position))
+                return {radiance, *pdf};
         const double distance2 = length_squared(Vec3d(at->position) - Vec3d(receiver.position));
         if (measure == Measure::best && has_parts_)
             return {radiance,

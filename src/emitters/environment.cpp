@@ -94,7 +94,8 @@ public:
         return light;
     }
 
-    EmitterValue evaluate(const LightReceiver&, const Vec3f& wi, const SurfacePoint* at, Measure) const override
+    EmitterValue evaluate(const LightReceiver&, const Vec3f& wi, const SurfacePoint* at,
+                          Measure) const override
     {
         if (at) return {};
         if (!bitmap_) return {constant_, constant_.is_black() ? 0.f : uniform_sphere_pdf()};

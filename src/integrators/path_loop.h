@@ -32,8 +32,8 @@ struct PathState {
     float pdf = 0.f;        // of the last direction, unless delta
     bool delta = true;   // nothing but following the path finds what it sees: camera rays and delta bounces
     bool is_view = true; // the camera still looks along it, perhaps through panes that do not bend it
-    bool is_chosen = false; // some direction of it was chosen among many
-    bool has_glossy = false; // some vertex of it was glossy
+    bool is_chosen = false;       // some direction of it was chosen among many
+    bool has_glossy = false;      // some vertex of it was glossy
     bool is_first_glossy = false; // and the last is the first of those
 
     bool would_be_first_glossy(const Vertex& vertex) const { return !has_glossy && vertex.is_glossy(); }

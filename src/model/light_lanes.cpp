@@ -2,6 +2,7 @@
 
 #include "plumb/model/light_lanes.h"
 
+#include "model/light_estimate.h"
 #include "plumb/math/elementary.h"
 
 #include <cmath>
@@ -29,6 +30,55 @@ inline float sine_of_rest(float cos_a, float sin_a, float cos_b, float sin_b)
 inline float sine_of(float cosine)
 {
     return std::sqrt(std::max((1.f - cosine) * (1.f + cosine), 0.f));
+}
+
+// emission_of(bound, middle, far): what is taken for the cosine at the lights, given its bound and those between the receiver
+// and the middle and the far side of the cone.
+template <class Emission>
+LightLanes::Sums sums(const LightLanes& lights, const LaneReceiver& receiver, const Emission& emission_of)
+{
+    constexpr std::size_t width = LightLanes::width;
+    const auto& [x, y, z, radius, axis_x, axis_y, axis_z, cosine, sine, intensity] = lights;
+    constexpr float nearest = 1e-24f; // squared distance: its inverse is far from overflowing
+    LightLanes::Lanes importance;
+    for (std::size_t k = 0; k < width; ++k) {
+        const float dx = x[k] - receiver.position.x;
+        const float dy = y[k] - receiver.position.y;
+        const float dz = z[k] - receiver.position.z;
+        const float distance2 = std::max(dx * dx + dy * dy + dz * dz, nearest);
+        const float radius2 = radius[k] * radius[k];
+        const float inverse = 1.f / std::sqrt(distance2);
+
+        // The sphere is seen within an angle b of its centre.
+        const float sin_b = std::min(radius[k] * inverse, 1.f);
+        const float cos_b = sine_of(sin_b);
+
+        // [1], equation 12.32: no light leaves at less than the angle w - o - b to a normal, where w is the angle
+        // between the axis and the receiver and o that of the cone.
+        const float cos_w = -(axis_x[k] * dx + axis_y[k] * dy + axis_z[k] * dz) * inverse;
+        const float sin_w = sine_of(cos_w);
+        const float cos_x = cosine_of_rest(cos_w, sin_w, cosine[k], sine[k]);
+        const float sin_x = sine_of_rest(cos_w, sin_w, cosine[k], sine[k]);
+        const float emission = cosine_of_rest(cos_x, sin_x, cos_b, sin_b);
+
+        // Nor does it arrive at less than the angle i - b to the receiver's normal.
+        const float cos_i =
+            (receiver.normal.x * dx + receiver.normal.y * dy + receiver.normal.z * dz) * inverse +
+            receiver.any_side;
+        const float reception = cosine_of_rest(cos_i, sine_of(cos_i), cos_b, sin_b);
+
+        const bool inside = distance2 <= radius2;
+        const float cosines = inside ? 1.f
+                                     : emission_of(std::max(emission + emission_margin, 0.f), cos_w,
+                                                   cos_w * cosine[k] - sin_w * sine[k]) *
+                                           std::max(reception + reception_margin, 0.f);
+        // Inside, the light is no nearer than it would be from the sphere's surface.
+        importance[k] = intensity[k] * cosines / std::max(distance2, radius2);
+    }
+    LightLanes::Sums ends;
+    ends[0] = 0.0;
+    for (std::size_t k = 0; k < width; ++k) ends[k + 1] = ends[k] + static_cast<double>(importance[k]);
+    return ends;
 }
 
 } // namespace
@@ -69,45 +119,15 @@ void LightLanes::set(std::size_t lane, const LightBounds& bounds, const Space& s
 
 LightLanes::Sums LightLanes::importance(const LaneReceiver& receiver) const
 {
-    constexpr float nearest = 1e-24f; // squared distance: its inverse is far from overflowing
-    Lanes importance;
-    for (std::size_t k = 0; k < width; ++k) {
-        const float dx = x[k] - receiver.position.x;
-        const float dy = y[k] - receiver.position.y;
-        const float dz = z[k] - receiver.position.z;
-        const float distance2 = std::max(dx * dx + dy * dy + dz * dz, nearest);
-        const float radius2 = radius[k] * radius[k];
-        const float inverse = 1.f / std::sqrt(distance2);
+    return sums(*this, receiver, [](float bound, float, float) { return bound; });
+}
 
-        // The sphere is seen within an angle b of its centre.
-        const float sin_b = std::min(radius[k] * inverse, 1.f);
-        const float cos_b = sine_of(sin_b);
-
-        // [1], equation 12.32: no light leaves at less than the angle w - o - b to a normal, where w is the angle
-        // between the axis and the receiver and o that of the cone.
-        const float cos_w = -(axis_x[k] * dx + axis_y[k] * dy + axis_z[k] * dz) * inverse;
-        const float sin_w = sine_of(cos_w);
-        const float cos_x = cosine_of_rest(cos_w, sin_w, cosine[k], sine[k]);
-        const float sin_x = sine_of_rest(cos_w, sin_w, cosine[k], sine[k]);
-        const float emission = cosine_of_rest(cos_x, sin_x, cos_b, sin_b);
-
-        // Nor does it arrive at less than the angle i - b to the receiver's normal.
-        const float cos_i =
-            (receiver.normal.x * dx + receiver.normal.y * dy + receiver.normal.z * dz) * inverse +
-            receiver.any_side;
-        const float reception = cosine_of_rest(cos_i, sine_of(cos_i), cos_b, sin_b);
-
-        const bool inside = distance2 <= radius2;
-        const float cosines =
-            inside ? 1.f
-                   : std::max(emission + emission_margin, 0.f) * std::max(reception + reception_margin, 0.f);
-        // Inside, the light is no nearer than it would be from the sphere's surface.
-        importance[k] = intensity[k] * cosines / std::max(distance2, radius2);
-    }
-    Sums sums;
-    sums[0] = 0.0;
-    for (std::size_t k = 0; k < width; ++k) sums[k + 1] = sums[k] + static_cast<double>(importance[k]);
-    return sums;
+LightLanes::Sums expected_importance(const LightLanes& lights, const LaneReceiver& receiver)
+{
+    // Simpson's rule over the angles from w - o - b to w + o.
+    return sums(lights, receiver, [](float bound, float middle, float far) {
+        return (bound + 4.f * std::max(middle, 0.f) + std::max(far, 0.f)) * (1.f / 6.f);
+    });
 }
 
 bool LightLanes::looks_alike(std::size_t lane, const LaneReceiver& receiver) const

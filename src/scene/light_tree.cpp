@@ -5,6 +5,17 @@
 #include <algorithm>
 
 namespace plumb {
+namespace {
+
+// The probability where some choices are uniform.
+float mixed(double uniform_share, float uniform, float of_tree)
+{
+    if (!(uniform_share > 0.0)) return of_tree;
+    return static_cast<float>(uniform_share * static_cast<double>(uniform) +
+                              (1.0 - uniform_share) * static_cast<double>(of_tree));
+}
+
+} // namespace
 
 // The running sums of the importance of what can be chosen at a node: its children and, at the root, the infinite
 // emitters.
@@ -30,21 +41,21 @@ LightTree::Shares LightTree::shares(std::uint32_t index, const LaneReceiver& rec
 
 std::optional<LightTree::Choice> LightTree::choose_at_glossy(const LightReceiver& receiver, double u) const
 {
-    std::optional<Choice> choice;
-    if (u < uniform_share_)
-        choice = uniform_.sample(std::min(u / uniform_share_, largest_below_one));
-    else
-        choice = choose_among_several(receiver, (u - uniform_share_) / (1.0 - uniform_share_));
-    if (choice) choice->probability = probability_at_glossy(receiver, choice->index);
+    if (u < uniform_share_) {
+        Choice choice = uniform_.sample(std::min(u / uniform_share_, largest_below_one));
+        choice.probability = probability_at_glossy(receiver, choice.index);
+        return choice;
+    }
+    std::optional<Choice> choice =
+        choose_among_several(receiver, (u - uniform_share_) / (1.0 - uniform_share_));
+    if (choice)
+        choice->probability = mixed(uniform_share_, uniform_.probability(choice->index), choice->probability);
     return choice;
 }
 
 float LightTree::probability_at_glossy(const LightReceiver& receiver, std::size_t index) const
 {
-    const double of_tree = static_cast<double>(probability_among_several(receiver, index));
-    if (!(uniform_share_ > 0.0)) return static_cast<float>(of_tree);
-    return static_cast<float>(uniform_share_ * static_cast<double>(uniform_.probability(index)) +
-                              (1.0 - uniform_share_) * of_tree);
+    return mixed(uniform_share_, uniform_.probability(index), probability_among_several(receiver, index));
 }
 
 std::optional<LightTree::Choice> LightTree::choose_among_several(const LightReceiver& at, double u) const

@@ -121,14 +121,7 @@ Tangents TriangleMesh::tangents(const SurfacePoint& at) const
 void TriangleMesh::prepare_sampling()
 {
     if (rectangle_) return; // sampled as a whole
-    const auto count = static_cast<std::uint32_t>(mesh_.triangles.size());
-    tree_ = std::make_unique<const TriangleTree>(count, [this](std::uint32_t i) {
-        const TriangleCorners t = corners(i);
-        const Vec3d normal = triangle_cross(t.edges());
-        const double size = length(normal);
-        return TriangleTree::Facet{
-            {t.p0, t.p1, t.p2}, size > 0.0 ? front_normal(i, normal * (1.0 / size)) : Vec3f(0.f), size * 0.5};
-    });
+    tree_ = std::make_unique<const TriangleTree>(mesh_);
 }
 
 ShapeSample TriangleMesh::sample_area(double u_select, const Vec2f& u) const

@@ -99,7 +99,7 @@ private:
                values[t[2]] * static_cast<float>(b.v);
     }
 
-    MeshData mesh_; // world space
+    MeshData mesh_;                            // world space
     std::unique_ptr<const TriangleTree> tree_; // once sampling is prepared
     std::optional<MeshRectangle> rectangle_;
     float area_ = 0.f;

@@ -2,6 +2,9 @@
 
 #include "shapes/triangle_tree.h"
 
+#include "model/light_estimate.h"
+#include "shapes/triangle_lanes.h"
+
 #include <algorithm>
 
 namespace plumb {
@@ -27,7 +30,8 @@ std::optional<LaneChoice> choose_lane(const LightLanes::Sums& sums, double u)
     const double target = u * sums.back(); // below the total, however it is rounded
     std::size_t lane = 0;
     for (std::size_t k = 1; k < LightLanes::width; ++k) lane += sums[k] <= target ? 1 : 0;
-    return LaneChoice{lane, std::min((target - sums[lane]) / (sums[lane + 1] - sums[lane]), largest_below_one)};
+    return LaneChoice{lane,
+                      std::min((target - sums[lane]) / (sums[lane + 1] - sums[lane]), largest_below_one)};
 }
 
 } // namespace
@@ -63,21 +67,11 @@ LaneReceiver TriangleTree::to_lanes(const LightReceiver& receiver) const
     return {Vec3f(position), receiver.normal};
 }
 
-LightLanes TriangleTree::lanes_of(std::uint32_t cluster) const
+LightLanes TriangleTree::triangles_of(std::uint32_t cluster) const
 {
-    LightLanes lanes;
     const std::uint32_t first = first_place(cluster);
     const std::uint32_t count = first_place(cluster + 1) - first;
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const Facet facet = facet_of_(order_[first + i]);
-        Box3f box(facet.corners[0]);
-        box.extendBy(facet.corners[1]);
-        box.extendBy(facet.corners[2]);
-        lanes.set_box(i, box, space_);
-        lanes.set_normal(i, facet.normal);
-        lanes.intensity[i] = static_cast<float>(facet.area / area_);
-    }
-    return lanes;
+    return lanes_of(mesh_, std::span(order_).subspan(first, count), space_, area_);
 }
 
 std::optional<TriangleTree::Choice> TriangleTree::choose(const LightReceiver& receiver, double u) const
@@ -89,7 +83,7 @@ std::optional<TriangleTree::Choice> TriangleTree::choose(const LightReceiver& re
     u = std::min(u, largest_below_one);
     while (here.count > 1) {
         const LightLanes& lights = nodes_[node].lights;
-        const LightLanes::Sums sums = lights.importance(at);
+        const LightLanes::Sums sums = expected_importance(lights, at);
         const auto choice = choose_lane(sums, u);
         if (!choice) return std::nullopt;
         const auto child = static_cast<std::uint32_t>(choice->lane);
@@ -104,7 +98,7 @@ std::optional<TriangleTree::Choice> TriangleTree::choose(const LightReceiver& re
         }
         node = nodes_[node].child[child];
     }
-    const LightLanes::Sums sums = lanes_of(here.first).importance(at);
+    const LightLanes::Sums sums = triangles_of(here.first).importance(at);
     const auto choice = choose_lane(sums, u);
     if (!choice) return std::nullopt;
     const auto place = first_place(here.first) + static_cast<std::uint32_t>(choice->lane);
@@ -121,25 +115,25 @@ double TriangleTree::probability(const LightReceiver& receiver, std::uint32_t tr
     std::uint32_t node = 0;
     while (here.count > 1) {
         const LightLanes& lights = nodes_[node].lights;
-        const LightLanes::Sums sums = lights.importance(at);
+        const LightLanes::Sums sums = expected_importance(lights, at);
         const std::uint32_t child = here.part_of(cluster);
         if (!(sums[child + 1] > sums[child])) return 0.0;
         probability *= share(sums, child);
         here = here.part(child);
         if (lights.looks_alike(child, at))
-            return probability * by_area_.share_among(place, first_place(here.first),
-                                                      first_place(here.first + here.count));
+            return probability *
+                   by_area_.share_among(place, first_place(here.first), first_place(here.first + here.count));
         node = nodes_[node].child[child];
     }
-    const LightLanes::Sums sums = lanes_of(here.first).importance(at);
+    const LightLanes::Sums sums = triangles_of(here.first).importance(at);
     const std::uint32_t lane = place - first_place(here.first);
     return sums[lane + 1] > sums[lane] ? probability * share(sums, lane) : 0.0;
 }
 
 std::uint64_t TriangleTree::memory_bytes() const
 {
-    return (order_.capacity() + place_.capacity()) * sizeof(std::uint32_t) + nodes_.capacity() * sizeof(Node) +
-           by_area_.memory_bytes();
+    return (order_.capacity() + place_.capacity()) * sizeof(std::uint32_t) +
+           nodes_.capacity() * sizeof(Node) + by_area_.memory_bytes();
 }
 
 } // namespace plumb

@@ -13,9 +13,9 @@
 
 #include "plumb/model/light_lanes.h"
 #include "plumb/sampling/distribution.h"
+#include "plumb/shapes/mesh.h"
 
 #include <array>
-#include <functional>
 #include <optional>
 #include <vector>
 
@@ -23,18 +23,12 @@ namespace plumb {
 
 class TriangleTree {
 public:
-    struct Facet {
-        std::array<Vec3f, 3> corners;
-        Vec3f normal; // of the front, unit length; anything where there is no area
-        double area = 0.0;
-    };
-    using FacetOf = std::function<Facet(std::uint32_t)>; // of a triangle of the mesh
     struct Choice {
         std::uint32_t triangle;
         double probability;
     };
 
-    TriangleTree(std::uint32_t count, FacetOf facet_of);
+    explicit TriangleTree(const MeshData& mesh); // which must outlive it
 
     // u in [0, 1) has 53 bits. Nothing where the triangles that u leads to cannot light the receiver: the probabilities of all
     // triangles add up to 1 or less.
@@ -67,7 +61,7 @@ private:
     class Builder;
 
     LaneReceiver to_lanes(const LightReceiver& receiver) const;
-    LightLanes lanes_of(std::uint32_t cluster) const;
+    LightLanes triangles_of(std::uint32_t cluster) const;
     // Clusters have equally many places, but for one.
     std::uint32_t first_place(std::uint32_t cluster) const
     {
@@ -78,7 +72,7 @@ private:
         return static_cast<std::uint32_t>(((place + std::uint64_t{1}) * clusters_ - 1) / order_.size());
     }
 
-    FacetOf facet_of_;
+    const MeshData& mesh_;
     std::vector<std::uint32_t> order_; // the triangle at each place
     std::vector<std::uint32_t> place_; // of each triangle
     std::uint32_t clusters_ = 0;

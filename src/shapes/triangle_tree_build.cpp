@@ -3,6 +3,7 @@
 // Building a tree of triangles: triangles that are near each other and face the same way become neighbours.
 
 #include "base/parallel.h"
+#include "shapes/triangle_lanes.h"
 #include "shapes/triangle_tree.h"
 
 #include <algorithm>
@@ -71,7 +72,7 @@ private:
 
     Item item(std::uint32_t triangle) const
     {
-        const Facet facet = tree_.facet_of_(triangle);
+        const Facet facet = facet_of(tree_.mesh_, triangle);
         const auto& [a, b, c] = facet.corners;
         const Vec3f center((Vec3d(a) + Vec3d(b) + Vec3d(c)) * (1.0 / 3.0));
         const Vec3f at((Vec3d(center) - tree_.space_.origin) * tree_.space_.scale);
@@ -120,7 +121,7 @@ private:
         for (std::uint32_t i = 0; i < count; ++i) {
             tree_.order_[first + i] = items[i].triangle;
             tree_.place_[items[i].triangle] = first + i;
-            facets[i] = tree_.facet_of_(items[i].triangle);
+            facets[i] = facet_of(tree_.mesh_, items[i].triangle);
             for (const Vec3f& corner : facets[i].corners) bounds.box.extendBy(corner);
             axis += Vec3d(facets[i].normal) * facets[i].area;
             bounds.power += facets[i].area;
@@ -156,12 +157,16 @@ private:
     std::vector<LightBounds> bounds_; // of clusters
 };
 
-TriangleTree::TriangleTree(std::uint32_t count, FacetOf facet_of)
-    : facet_of_(std::move(facet_of)), order_(count), place_(count), clusters_((count + width - 1) / width)
+TriangleTree::TriangleTree(const MeshData& mesh)
+    : mesh_(mesh),
+      order_(mesh.triangles.size()),
+      place_(mesh.triangles.size()),
+      clusters_(static_cast<std::uint32_t>((mesh.triangles.size() + width - 1) / width))
 {
+    const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
     Box3f box;
     for (std::uint32_t i = 0; i < count; ++i) {
-        const Facet facet = facet_of_(i);
+        const Facet facet = facet_of(mesh, i);
         for (const Vec3f& corner : facet.corners) box.extendBy(corner);
         area_ += facet.area;
     }
@@ -175,7 +180,7 @@ TriangleTree::TriangleTree(std::uint32_t count, FacetOf facet_of)
     nodes_.shrink_to_fit();
     std::vector<double> areas;
     areas.reserve(count);
-    for (const std::uint32_t triangle : order_) areas.push_back(facet_of_(triangle).area);
+    for (const std::uint32_t triangle : order_) areas.push_back(facet_of(mesh, triangle).area);
     by_area_ = DiscreteDistribution(areas);
 }
 

@@ -2,6 +2,8 @@
 
 // Emitter samples of which one is followed: any number of candidates gives the same mean, and less noise.
 
+#include "plumb/model/shape.h"
+
 #include "support/catch.h"
 #include "support/integrators.h"
 #include "support/lamp.h"
@@ -78,7 +80,8 @@ TEST_CASE("any number of candidates has the same mean", "[statistical][direct][r
                         fmt::format("{}, depth {}, {} candidates, {}", name, depth, candidates, heuristic),
                         [&](std::uint64_t n, std::uint64_t seed) {
                             return same_mean_outcome(estimate(scene, *several, at_the_plate, n, seed),
-                                                     estimate(scene, *one, at_the_plate, n, seed + 1000), 1e-5);
+                                                     estimate(scene, *one, at_the_plate, n, seed + 1000),
+                                                     1e-5);
                         },
                         20000, sidak_level(significance, 36));
                 }
@@ -106,7 +109,8 @@ TEST_CASE("candidates make the light on a glossy plate less noisy", "[statistica
 {
     const Scene scene = lit_plate(metal(0.3)).build();
     const auto variance = [&](int candidates) {
-        return estimate(scene, *make_integrator(path_mis(candidates, 1), scene), at_the_plate, 40000, 3).variance();
+        return estimate(scene, *make_integrator(path_mis(candidates, 1), scene), at_the_plate, 40000, 3)
+            .variance();
     };
     const double one = variance(1);
     CHECK(variance(4) < 0.8 * one);
@@ -116,7 +120,8 @@ TEST_CASE("without glossy surfaces candidates change no bit", "[statistical][dir
 {
     const Scene scene = lit_plate(diffuse(0.5f)).build();
     const auto value = [&](int candidates) {
-        return estimate(scene, *make_integrator(path_mis(candidates, -1), scene), at_the_plate, 500, 3).mean();
+        return estimate(scene, *make_integrator(path_mis(candidates, -1), scene), at_the_plate, 500, 3)
+            .mean();
     };
     CHECK(value(1) == value(16));
 }

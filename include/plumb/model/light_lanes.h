@@ -13,7 +13,8 @@ namespace plumb {
 
 // A receiver in the coordinates of the lanes.
 struct LaneReceiver {
-    LaneReceiver(const Vec3f& at, const Vec3f& n) : position(at), normal(n), any_side(n == Vec3f(0.f) ? 1.f : 0.f)
+    LaneReceiver(const Vec3f& at, const Vec3f& n)
+        : position(at), normal(n), any_side(n == Vec3f(0.f) ? 1.f : 0.f)
     {}
 
     Vec3f position;

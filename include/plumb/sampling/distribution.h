@@ -43,7 +43,8 @@ public:
         double share; // of theirs
     };
     std::optional<Pick> sample_among(std::size_t first, std::size_t last, double u) const;
-    double share_among(std::size_t index, std::size_t first, std::size_t last) const // 0 where they have no weight
+    double share_among(std::size_t index, std::size_t first,
+                       std::size_t last) const // 0 where they have no weight
     {
         const double all = cdf_[last] - cdf_[first];
         return all > 0.0 ? (cdf_[index + 1] - cdf_[index]) / all : 0.0;
