@@ -11,8 +11,9 @@ namespace plumb {
 ///
 /// The front side is that of the geometric normal, which is on the side of the vertex normals where a mesh has
 /// them. Spheres are sampled by the solid angle that they subtend; so are rectangles, and meshes of two triangles that
-/// make a rectangle, from nearer than their diagonal is long; all else uniformly over its area. Stands inside the mesh
-/// or shape that emits.
+/// make a rectangle, from nearer than their diagonal is long. Of other meshes a triangle is chosen by what it is expected
+/// to send to the place that is lit, and a point uniformly over its area; all else is sampled uniformly over its area.
+/// Stands inside the mesh or shape that emits.
 ///
 ///     radiance   color or texture   in W / (m^2 sr), at least 0; negative values of a texture count as 0
 ///                                   (default 1)
@@ -32,10 +33,12 @@ public:
           shape_(params.parent_shape())
     {
         if (radiance_->reads_attributes()) params.fail("radiance", "cannot be an attribute of a mesh");
-        if (shape_ == nullptr)
+        if (shape_ == nullptr) {
             params.fail("area", "emitters need a surface: put it inside a <mesh> or <shape>");
-        else
+        } else {
             has_solid_angle_ = shape_->has_solid_angle();
+            has_parts_ = shape_->has_parts();
+        }
     }
 
     std::optional<EmitterSample> sample(const LightReceiver& receiver, double u_select, const Vec2f& u,
@@ -44,10 +47,14 @@ public:
         if (measure != Measure::area && has_solid_angle_)
             if (const std::optional<ShapeSample> point = shape_->sample_solid_angle(receiver.position, u))
                 return seen(receiver, *point, Measure::solid_angle);
+        if (measure == Measure::best && has_parts_) {
+            const std::optional<ShapeSample> point = shape_->sample_for(receiver, u_select, u);
+            return point ? seen(receiver, *point, Measure::area) : std::nullopt;
+        }
         return seen(receiver, shape_->sample_area(u_select, u), Measure::area);
     }
 
-    EmitterValue evaluate(const Vec3f& from, const Vec3f& wi, const SurfacePoint* at,
+    EmitterValue evaluate(const LightReceiver& receiver, const Vec3f& wi, const SurfacePoint* at,
                           Measure measure) const override
     {
         if (at == nullptr) return {};
@@ -56,8 +63,12 @@ public:
         if (!(cosine > 0.0)) return {};
         const Color radiance = radiance_of(radiance_->color(*at));
         if (measure != Measure::area && has_solid_angle_)
-            if (const std::optional<float> pdf = shape_->solid_angle_pdf(from)) return {radiance, *pdf};
-        const double distance2 = length_squared(Vec3d(at->position) - Vec3d(from));
+            if (const std::optional<float> pdf = shape_->solid_angle_pdf(receiver.position))
+                return {radiance, *pdf};
+        const double distance2 = length_squared(Vec3d(at->position) - Vec3d(receiver.position));
+        if (measure == Measure::best && has_parts_)
+            return {radiance,
+                    static_cast<float>(shape_->pdf_for(receiver, at->primitive) * (distance2 / cosine))};
         return {radiance, static_cast<float>(distance2 / (cosine * shape_->area()))};
     }
 
@@ -128,6 +139,7 @@ private:
     float scale_;
     const Shape* shape_;
     bool has_solid_angle_ = false;
+    bool has_parts_ = false;
 };
 
 template std::unique_ptr<Emitter> build<AreaEmitter>(const Params&);

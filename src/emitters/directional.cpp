@@ -56,7 +56,7 @@ public:
         return sample;
     }
 
-    EmitterValue evaluate(const Vec3f&, const Vec3f&, const SurfacePoint*, Measure) const override
+    EmitterValue evaluate(const LightReceiver&, const Vec3f&, const SurfacePoint*, Measure) const override
     {
         return {};
     }

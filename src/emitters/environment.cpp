@@ -84,7 +84,7 @@ public:
     {
         const Vec3f wi = bitmap_ ? sample_direction(u_select, u) : square_to_uniform_sphere(u);
         if (!receiver.counts_light_from(wi)) return std::nullopt;
-        const EmitterValue value = evaluate(receiver.position, wi, nullptr, measure);
+        const EmitterValue value = evaluate(receiver, wi, nullptr, measure);
         if (!(value.pdf > 0.f)) return std::nullopt; // black everywhere
         EmitterSample light;
         light.wi = wi;
@@ -94,7 +94,8 @@ public:
         return light;
     }
 
-    EmitterValue evaluate(const Vec3f&, const Vec3f& wi, const SurfacePoint* at, Measure) const override
+    EmitterValue evaluate(const LightReceiver&, const Vec3f& wi, const SurfacePoint* at,
+                          Measure) const override
     {
         if (at) return {};
         if (!bitmap_) return {constant_, constant_.is_black() ? 0.f : uniform_sphere_pdf()};

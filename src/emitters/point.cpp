@@ -33,7 +33,7 @@ public:
         return sample_of_point(position_, towards, distance2, intensity_, 1.0 / distance2);
     }
 
-    EmitterValue evaluate(const Vec3f&, const Vec3f&, const SurfacePoint*, Measure) const override
+    EmitterValue evaluate(const LightReceiver&, const Vec3f&, const SurfacePoint*, Measure) const override
     {
         return {};
     }

@@ -79,7 +79,7 @@ public:
         return sample_of_point(Vec3f(position_), towards, distance2, intensity, 1.0 / distance2);
     }
 
-    EmitterValue evaluate(const Vec3f&, const Vec3f&, const SurfacePoint*, Measure) const override
+    EmitterValue evaluate(const LightReceiver&, const Vec3f&, const SurfacePoint*, Measure) const override
     {
         return {};
     }

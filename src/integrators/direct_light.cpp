@@ -5,6 +5,8 @@
 #include "plumb/base/error.h"
 #include "plumb/sampling/sampling.h"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 namespace plumb {
@@ -18,6 +20,24 @@ Color light_from(Tracer& tracer, Sampler& sampler, const Vertex& vertex, const E
     const auto light = emitter.sample(vertex.receiver(), u_select, u, measure);
     if (!light) return Color(0.f);
     return light_through(tracer, vertex, *light, vertex.evaluate(light->wi).f_cos);
+}
+
+struct EmitterNumbers {
+    double choice;
+    Vec2f u;
+};
+
+// The numbers of the i-th of some candidates, each of which is uniform: the choice is spread evenly, the places as in Roberts
+// 2018, "The Unreasonable Effectiveness of Quasirandom Sequences".
+EmitterNumbers shifted(double choice, const Vec2f& u, int i, int count)
+{
+    const double step = static_cast<double>(i);
+    const auto wrapped = [](double x) { return x - std::floor(x); };
+    const auto wrapped_float = [&](float x, double by) {
+        return std::min(static_cast<float>(wrapped(static_cast<double>(x) + by)), one_minus_epsilon);
+    };
+    return {wrapped(choice + step / count),
+            {wrapped_float(u.x, 0.7548776662466927 * step), wrapped_float(u.y, 0.5698402909980532 * step)}};
 }
 
 } // namespace
@@ -62,6 +82,45 @@ Color light_from_one_emitter(Tracer& tracer, Sampler& sampler, const Vertex& ver
     const float weight = light->is_delta ? 1.f : mis_weight(heuristic, light->pdf, value.pdf);
     const Color found = light_through(tracer, vertex, *light, value.f_cos, weight);
     tracer.note_light(found, FoundBy::emitter_sample, light->emitter_index);
+    return found;
+}
+
+Color light_by_resampling(Tracer& tracer, Sampler& sampler, const Vertex& vertex, Heuristic heuristic,
+                          int candidates)
+{
+    if (!vertex.has_smooth_lobes()) return Color(0.f);
+    const double u_choice = sampler.next_choice();
+    const Vec2f u = sampler.next_2d();
+    float u_pick = sampler.next_1d();
+    const LightReceiver receiver = vertex.receiver();
+    const auto count = static_cast<float>(candidates);
+    std::optional<EmitterSample> picked;
+    Color f_cos;
+    float sum = 0.f;
+    for (int i = 0; i < candidates; ++i) {
+        const auto [choice_i, u_i] = shifted(u_choice, u, i, candidates);
+        const auto light = tracer.scene().sample_emitter(receiver, choice_i, u_i);
+        if (!light) continue;
+        const BsdfValue value = vertex.evaluate(light->wi);
+        const float brightness = luminance(value.f_cos * light->radiance);
+        const float mis = light->is_delta ? 1.f : mis_weight(heuristic, count * light->pdf, value.pdf);
+        const float share = brightness * mis / light->pdf;
+        if (!(share > 0.f)) continue;
+        sum += share;
+        const float chance = share / sum;
+        if (u_pick < chance) {
+            u_pick = std::min(u_pick / chance, one_minus_epsilon);
+            picked = light;
+            picked->pdf = brightness; // in proportion to which it is as if it had been sampled
+            f_cos = value.f_cos;
+        } else {
+            u_pick = std::min((u_pick - chance) / (1.f - chance), one_minus_epsilon);
+        }
+    }
+    if (!picked) return Color(0.f);
+    picked->pdf *= count / sum;
+    const Color found = light_through(tracer, vertex, *picked, f_cos);
+    tracer.note_light(found, FoundBy::emitter_sample, picked->emitter_index);
     return found;
 }
 

@@ -20,6 +20,19 @@ float mis_weight(Heuristic heuristic, float mine, float other);
 Color light_from_one_emitter(Tracer& tracer, Sampler& sampler, const Vertex& vertex,
                              Heuristic heuristic = Heuristic::none);
 
+// The same by resampling [1]: of `candidates` such points one is followed, chosen in proportion to what it would add if
+// nothing were in the way. To BSDF sampling, which finds emitters too, they count as so many samples: the weights
+//     w(x) = h(candidates p(x), p_bsdf(x)),   w_bsdf(x) = h(p_bsdf(x), candidates p(x)),   h: the heuristic,
+// depend on the point alone and add up to 1, which is all that Veach 1997, section 9.2, asks of them. With the target
+// q(x) = luminance(f L) w the estimate is
+//     f L w V (y) / q(y) * 1/M sum_i q(x_i) / p(x_i),   P(y = x_i) ~ q(x_i) / p(x_i)   ([1], equation 6),
+// whose mean over the choice of y is 1/M sum_i (f L w V)(x_i) / p(x_i): right if each candidate alone has the density p, and
+// they need not be independent. They are one point shifted, spread over the emitters.
+//
+// [1] Talbot, Cline and Egbert 2005, "Importance Resampling for Global Illumination", EGSR.
+Color light_by_resampling(Tracer& tracer, Sampler& sampler, const Vertex& vertex, Heuristic heuristic,
+                          int candidates);
+
 // One emitter among those that no BSDF sample can reach: point and directional lights.
 Color light_from_one_delta_emitter(Tracer& tracer, Sampler& sampler, const Vertex& vertex);
 

@@ -42,12 +42,16 @@ std::string PathEstimator::bias() const
     return (of_depth.empty() ? "" : of_depth + "; ") + "the camera does not see emitters";
 }
 
-Color PathEstimator::direct(Tracer& tracer, Sampler& sampler, const Vertex& vertex) const
+Color PathEstimator::direct(Tracer& tracer, Sampler& sampler, const PathState& path,
+                            const Vertex& vertex) const
 {
     switch (strategy_) {
     case LightStrategy::path: return light_from_one_delta_emitter(tracer, sampler, vertex);
     case LightStrategy::emitter_samples: return light_from_one_emitter(tracer, sampler, vertex);
-    case LightStrategy::both: return light_from_one_emitter(tracer, sampler, vertex, heuristic_);
+    case LightStrategy::both:
+        if (candidates_ > 1 && path.would_be_first_glossy(vertex))
+            return light_by_resampling(tracer, sampler, vertex, heuristic_, candidates_);
+        return light_from_one_emitter(tracer, sampler, vertex, heuristic_);
     }
     return Color(0.f);
 }

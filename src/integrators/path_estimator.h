@@ -27,9 +27,10 @@ public:
     // (and the path counts only what no such sample could find), or both.
     enum class LightStrategy { path, emitter_samples, both };
 
+    // candidates: with both, light samples at the first glossy vertex, of which one is followed.
     explicit PathEstimator(LightStrategy finder, PathLimits limits = {},
-                           Heuristic heuristic = Heuristic::power)
-        : strategy_(finder), limits_(limits), heuristic_(heuristic)
+                           Heuristic heuristic = Heuristic::power, int candidates = 1)
+        : strategy_(finder), limits_(limits), heuristic_(heuristic), candidates_(candidates)
     {}
     // Direct light only: one bounce.
     static PathEstimator direct_light(LightStrategy finder);
@@ -47,9 +48,11 @@ public:
     }
     float emission_weight(const PathState& path, float light_pdf) const
     {
-        return strategy_ == LightStrategy::both ? mis_weight(heuristic_, path.pdf, light_pdf) : 1.f;
+        if (strategy_ != LightStrategy::both) return 1.f;
+        const float samples = path.is_first_glossy ? static_cast<float>(candidates_) : 1.f;
+        return mis_weight(heuristic_, path.pdf, samples * light_pdf);
     }
-    Color direct(Tracer& tracer, Sampler& sampler, const Vertex& vertex) const;
+    Color direct(Tracer& tracer, Sampler& sampler, const PathState& path, const Vertex& vertex) const;
     std::optional<BsdfSample> scatter(Sampler& sampler, const Vertex& vertex) const
     {
         const float u_lobe = sampler.next_1d();
@@ -62,6 +65,7 @@ private:
     LightStrategy strategy_;
     PathLimits limits_;
     Heuristic heuristic_;
+    int candidates_;
 };
 
 // An integrator that is no more than an estimator.

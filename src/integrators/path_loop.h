@@ -7,7 +7,8 @@
 //     bool counts_passes() const                                is a pass through a null lobe a bounce?
 //     bool counts_emission(const PathState&) const              does the path's last direction count what it meets?
 //     float emission_weight(const PathState&, float light_pdf) const     and with which weight?
-//     Color direct(Tracer&, Sampler&, const Vertex&) const      light that reaches the vertex by other means
+//     Color direct(Tracer&, Sampler&, const Vertex&) const      light that reaches the vertex by other means; may also ask
+//                                                               for the PathState, after the Sampler
 //     std::optional<BsdfSample> scatter(Sampler&, const Vertex&) const   where the path goes on
 //     float survival(const PathState&, int bounces) const       the chance that it does; 1: no roulette
 //     bool hides_emitters() const                               optional: does the camera see through emitters?
@@ -31,7 +32,11 @@ struct PathState {
     float pdf = 0.f;        // of the last direction, unless delta
     bool delta = true;   // nothing but following the path finds what it sees: camera rays and delta bounces
     bool is_view = true; // the camera still looks along it, perhaps through panes that do not bend it
-    bool is_chosen = false; // some direction of it was chosen among many
+    bool is_chosen = false;       // some direction of it was chosen among many
+    bool has_glossy = false;      // some vertex of it was glossy
+    bool is_first_glossy = false; // and the last is the first of those
+
+    bool would_be_first_glossy(const Vertex& vertex) const { return !has_glossy && vertex.is_glossy(); }
 
     // Light that lies behind a pass is still looked for from the last vertex.
     void pass(const BsdfSample& next) { throughput *= next.weight; }
@@ -45,6 +50,8 @@ struct PathState {
         delta = next.is_delta();
         is_view = is_view && next.is_delta() && next.is_transmission() && vertex.goes_straight(next);
         is_chosen = is_chosen || !next.is_delta();
+        is_first_glossy = would_be_first_glossy(vertex);
+        has_glossy = has_glossy || is_first_glossy;
     }
 };
 
@@ -97,7 +104,12 @@ template <class Technique>
 Color scattered(const Technique& technique, Tracer& tracer, Sampler& sampler, const PathState& path,
                 const Vertex& vertex)
 {
-    const Color contribution = path.throughput * technique.direct(tracer, sampler, vertex);
+    Color found;
+    if constexpr (requires { technique.direct(tracer, sampler, path, vertex); })
+        found = technique.direct(tracer, sampler, path, vertex);
+    else
+        found = technique.direct(tracer, sampler, vertex);
+    const Color contribution = path.throughput * found;
     if (tracer.logging() && !contribution.is_black())
         tracer.log_contribution(PathEvent::Kind::direct, "direct light", contribution);
     return contribution;

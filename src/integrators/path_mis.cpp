@@ -19,6 +19,8 @@ namespace plumb {
 ///     hideEmitters   boolean   the camera sees through surfaces that emit, and no environment; mirrors show them
 ///                              (default false)
 ///     heuristic   string    how the two share: power or balance   (default power)
+///     candidates  integer   emitter samples at the first glossy surface of a path; one of them is followed, chosen by what it
+///                           would add if nothing were in the way   (default 4)
 ///
 ///         <integrator type="path_mis">
 ///             <string name="heuristic" value="balance"/>
@@ -27,7 +29,8 @@ class PathMis final : public EstimatorIntegrator {
 public:
     explicit PathMis(const Params& params)
         : EstimatorIntegrator(
-              PathEstimator(PathEstimator::LightStrategy::both, PathLimits(params), heuristic_of(params)))
+              PathEstimator(PathEstimator::LightStrategy::both, PathLimits(params), heuristic_of(params),
+                            static_cast<int>(params.integer("candidates", 4, Range::closed(1, 64)))))
     {}
 };
 

@@ -21,6 +21,7 @@ public:
 
     const SurfacePoint& at() const { return at_; }
     bool has_delta_lobes() const { return lobes_.has_any(delta_lobes); }
+    bool is_glossy() const { return lobes_.has_any(glossy_lobes); }
     bool has_transmission() const { return lobes_.has_any(transmission_lobes); }
     // Whether evaluate() can be anything but black.
     bool has_smooth_lobes() const { return (lobes_.bits & ~delta_lobes.bits) != 0; }
@@ -39,9 +40,8 @@ public:
     // A surface without smooth transmission is black, from where it is seen, for light samples from behind its shading normal.
     LightReceiver receiver() const
     {
-        const bool is_glossy = lobes_.has_any(glossy_lobes);
-        if (lobes_.has_any(Lobe::glossy_transmission)) return {at_.position, Vec3f(0.f), is_glossy};
-        return {at_.position, wi_.z < 0.f ? -at_.shading.n : at_.shading.n, is_glossy};
+        if (lobes_.has_any(Lobe::glossy_transmission)) return {at_.position, Vec3f(0.f), is_glossy()};
+        return {at_.position, wi_.z < 0.f ? -at_.shading.n : at_.shading.n, is_glossy()};
     }
 
     // Whether a sample goes on where the path came from, to rounding.

@@ -11,6 +11,16 @@ std::optional<ShapeSample> Shape::sample_solid_angle(const Vec3f&, const Vec2f&)
     return std::nullopt;
 }
 
+std::optional<ShapeSample> Shape::sample_for(const LightReceiver&, double u_select, const Vec2f& u) const
+{
+    return sample_area(u_select, u);
+}
+
+double Shape::pdf_for(const LightReceiver&, std::uint32_t) const
+{
+    return 1.0 / static_cast<double>(area());
+}
+
 std::optional<float> Shape::solid_angle_pdf(const Vec3f&) const
 {
     return std::nullopt;

@@ -46,4 +46,15 @@ DiscreteDistribution::Choice DiscreteDistribution::sample_several(double u) cons
     return {index, static_cast<float>(width), std::min((clamped - low) / width, largest_below_one)};
 }
 
+std::optional<DiscreteDistribution::Pick> DiscreteDistribution::sample_among(std::size_t first,
+                                                                             std::size_t last, double u) const
+{
+    const double all = cdf_[last] - cdf_[first];
+    if (!(all > 0.0)) return std::nullopt;
+    // Ends are multiples of 2^-53: the sum is rounded to no more than the last of them, and must not be that.
+    const double place = std::min(cdf_[first] + u * all, cdf_[last] - 0x1p-53);
+    const std::uint32_t index = sample(place).index;
+    return Pick{index, share_among(index, first, last)};
+}
+
 } // namespace plumb

@@ -19,15 +19,6 @@ struct Light {
 };
 using Lights = std::span<Light>;
 
-LightBounds merged(const LightBounds& a, const LightBounds& b)
-{
-    if (a.box.isEmpty()) return b;
-    if (b.box.isEmpty()) return a;
-    LightBounds both{a.box, a.power + b.power, hull(a.normals, b.normals)};
-    both.box.extendBy(b.box);
-    return both;
-}
-
 LightBounds bounds_of(std::span<const Light> lights)
 {
     LightBounds all;
@@ -133,7 +124,7 @@ public:
         const std::vector<Group> groups = divided(lights, level);
         for (std::size_t k = 0; k < groups.size(); ++k) {
             const Group& group = groups[k];
-            set_lane(tree_.nodes_[index], k, group.bounds);
+            tree_.nodes_[index].lights.set(k, group.bounds, {Vec3d(0.0), tree_.scale_}, largest_power_);
             const std::uint64_t child_path = path | std::uint64_t{k} << (bits_per_level * level);
             std::uint32_t child = 0;
             if (group.lights.size() == 1) {
@@ -176,29 +167,6 @@ private:
             groups.insert(next + 1, Group(whole.subspan(first)));
         }
         return groups;
-    }
-
-    void set_lane(Node& node, std::size_t k, const LightBounds& bounds) const
-    {
-        const double scale = tree_.scale_;
-        const Vec3d low = Vec3d(bounds.box.min) * scale;
-        const Vec3d high = Vec3d(bounds.box.max) * scale;
-        const Vec3f center((low + high) * 0.5);
-        const Vec3d to_low = Vec3d(center) - low;
-        const Vec3d to_high = high - Vec3d(center);
-        const Vec3d furthest(std::max(to_low.x, to_high.x), std::max(to_low.y, to_high.y),
-                             std::max(to_low.z, to_high.z));
-        const SinCosD angle = sin_cos(bounds.normals.angle);
-        node.x[k] = center.x;
-        node.y[k] = center.y;
-        node.z[k] = center.z;
-        node.radius[k] = static_cast<float>(length(furthest) * (1.0 + 2.0 * unit_roundoff));
-        node.axis_x[k] = bounds.normals.axis.x;
-        node.axis_y[k] = bounds.normals.axis.y;
-        node.axis_z[k] = bounds.normals.axis.z;
-        node.cosine[k] = static_cast<float>(angle.cos);
-        node.sine[k] = static_cast<float>(std::max(angle.sin, 0.0));
-        node.intensity[k] = static_cast<float>(bounds.power / largest_power_ * mean_cosine(bounds.normals));
     }
 
     LightTree& tree_;

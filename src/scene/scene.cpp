@@ -110,12 +110,12 @@ EmitterValue Scene::emission(const LightReceiver& receiver, const Vec3f& wi, con
 {
     if (hit != nullptr) {
         if (hit->emitter == nullptr) return {};
-        const EmitterValue value = hit->emitter->evaluate(receiver.position, wi, hit, measure);
+        const EmitterValue value = hit->emitter->evaluate(receiver, wi, hit, measure);
         return {value.radiance, value.pdf * choice_.probability(receiver, hit->emitter_index)};
     }
     EmitterValue sum;
     for (const std::uint32_t index : infinite_) {
-        const EmitterValue value = emitters_[index]->evaluate(receiver.position, wi, nullptr, measure);
+        const EmitterValue value = emitters_[index]->evaluate(receiver, wi, nullptr, measure);
         sum.radiance += value.radiance;
         sum.pdf += value.pdf * choice_.probability(receiver, index);
     }

@@ -120,19 +120,29 @@ Tangents TriangleMesh::tangents(const SurfacePoint& at) const
 
 void TriangleMesh::prepare_sampling()
 {
-    std::vector<double> areas;
-    areas.reserve(mesh_.triangles.size());
-    for (std::uint32_t i = 0; i < mesh_.triangles.size(); ++i) areas.push_back(triangle_area(i));
-    choice_ = DiscreteDistribution(areas);
+    if (rectangle_) return; // sampled as a whole
+    tree_ = std::make_unique<const TriangleTree>(mesh_);
 }
 
 ShapeSample TriangleMesh::sample_area(double u_select, const Vec2f& u) const
 {
     if (rectangle_) return sample_rectangle(u.x, u.y, 1.f / area_);
-    const std::uint32_t primitive = choice_.sample(u_select).index;
-    const Vec2f uv_in_triangle = square_to_triangle(u);
-    const Barycentric b{uv_in_triangle.x, uv_in_triangle.y};
-    return sample_at(primitive, face(primitive), b, 1.f / area_);
+    return sample_triangle(tree_->choose_by_area(u_select), u, 1.f / area_);
+}
+
+std::optional<ShapeSample> TriangleMesh::sample_for(const LightReceiver& receiver, double u_select,
+                                                    const Vec2f& u) const
+{
+    const auto choice = tree_->choose(receiver, u_select);
+    if (!choice) return std::nullopt;
+    const double pdf = choice->probability / triangle_area(choice->triangle);
+    return sample_triangle(choice->triangle, u, static_cast<float>(pdf));
+}
+
+double TriangleMesh::pdf_for(const LightReceiver& receiver, std::uint32_t primitive) const
+{
+    const double area = triangle_area(primitive);
+    return area > 0.0 ? tree_->probability(receiver, primitive) / area : 0.0;
 }
 
 std::optional<ShapeSample> TriangleMesh::sample_solid_angle(const Vec3f& from, const Vec2f& u) const
@@ -188,7 +198,7 @@ std::uint64_t TriangleMesh::memory_bytes() const
         attributes += attribute.values.capacity() * sizeof(float);
     return mesh_.positions.capacity() * sizeof(Vec3f) + mesh_.normals.capacity() * sizeof(Vec3f) +
            mesh_.uvs.capacity() * sizeof(Vec2f) + mesh_.triangles.capacity() * sizeof(MeshData::Triangle) +
-           attributes;
+           attributes + (tree_ ? tree_->memory_bytes() : 0);
 }
 
 std::vector<std::string> TriangleMesh::attribute_names() const
@@ -267,6 +277,12 @@ ShapeSample TriangleMesh::sample_rectangle(double x, double y, float pdf) const
 {
     const auto [primitive, b] = rectangle_->at(x, y);
     return sample_at(primitive, rectangle_->faces[primitive], b, pdf);
+}
+
+ShapeSample TriangleMesh::sample_triangle(std::uint32_t primitive, const Vec2f& u, float pdf) const
+{
+    const Vec2f uv_in_triangle = square_to_triangle(u);
+    return sample_at(primitive, face(primitive), {uv_in_triangle.x, uv_in_triangle.y}, pdf);
 }
 
 ShapeSample TriangleMesh::sample_at(std::uint32_t primitive, const Face& face, const Barycentric& b,

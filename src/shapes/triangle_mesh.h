@@ -5,12 +5,13 @@
 
 #include "plumb/model/params.h"
 #include "plumb/model/shape.h"
-#include "plumb/sampling/distribution.h"
 #include "plumb/shapes/mesh.h"
 #include "shapes/spherical_rectangle.h"
 #include "shapes/triangle.h"
+#include "shapes/triangle_tree.h"
 
 #include <functional>
+#include <memory>
 #include <utility>
 
 namespace plumb {
@@ -25,6 +26,10 @@ public:
     std::optional<ShapeSample> sample_solid_angle(const Vec3f& from, const Vec2f& u) const final;
     std::optional<float> solid_angle_pdf(const Vec3f& from) const final;
     bool has_solid_angle() const final { return rectangle_.has_value(); }
+    std::optional<ShapeSample> sample_for(const LightReceiver& receiver, double u_select,
+                                          const Vec2f& u) const final;
+    double pdf_for(const LightReceiver& receiver, std::uint32_t primitive) const final;
+    bool has_parts() const final { return !rectangle_ && mesh_.triangles.size() > 1; }
     float area() const final { return area_; }
     Box3f bounds() const final;
     Box3f primitive_bounds(std::uint32_t primitive) const final;
@@ -71,6 +76,7 @@ private:
     std::optional<MeshRectangle> rectangle() const;
     Face face(std::uint32_t primitive) const;
     ShapeSample sample_rectangle(double x, double y, float pdf) const;
+    ShapeSample sample_triangle(std::uint32_t primitive, const Vec2f& u, float pdf) const;
     ShapeSample sample_at(std::uint32_t primitive, const Face& face, const Barycentric& b, float pdf) const;
     Vec3f position(const TriangleEdges& edges, const Barycentric& b) const;
     double triangle_area(std::uint32_t primitive) const;
@@ -93,8 +99,8 @@ private:
                values[t[2]] * static_cast<float>(b.v);
     }
 
-    MeshData mesh_; // world space
-    DiscreteDistribution choice_;
+    MeshData mesh_;                            // world space
+    std::unique_ptr<const TriangleTree> tree_; // once sampling is prepared
     std::optional<MeshRectangle> rectangle_;
     float area_ = 0.f;
     bool corners_turned_ =

@@ -116,9 +116,9 @@ TEST_CASE("the density of every emitter is that of its samples", "[statistical][
         const Vec3f from = lit.sphere.center + Vec3f(1.3f, 1.1f, 0.7f) * lit.sphere.radius;
         const auto density = [&](const Vec3f& wi) {
             if (lit.emitter().is_infinite())
-                return lit.emitter().evaluate(from, wi, nullptr, Measure::best).pdf;
+                return lit.emitter().evaluate({from}, wi, nullptr, Measure::best).pdf;
             const auto hit = lit.scene.intersect({from, wi});
-            return hit ? lit.emitter().evaluate(from, wi, &*hit, Measure::best).pdf : 0.f;
+            return hit ? lit.emitter().evaluate({from}, wi, &*hit, Measure::best).pdf : 0.f;
         };
         for (int k = 0; k < 4; ++k) { // 1, x, y, z
             const auto quantity = [k](const Vec3f& wi) {

@@ -25,7 +25,7 @@ public:
     {
         return std::nullopt;
     }
-    EmitterValue evaluate(const Vec3f&, const Vec3f&, const SurfacePoint*, Measure) const override
+    EmitterValue evaluate(const LightReceiver&, const Vec3f&, const SurfacePoint*, Measure) const override
     {
         return {};
     }

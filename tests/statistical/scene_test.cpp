@@ -48,7 +48,7 @@ TEST_CASE("each emitter is chosen as often as the density of its samples says", 
         at.position = light.position;
         at.geometric_normal = light.normal;
         const SurfacePoint* hit = light.distance == infinity ? nullptr : &at;
-        return light.pdf / light.emitter->evaluate(from, light.wi, hit, Measure::best).pdf;
+        return light.pdf / light.emitter->evaluate({from}, light.wi, hit, Measure::best).pdf;
     };
     for (std::uint32_t i = 0; i < 5; ++i)
         for (const Vec3f& normal : {Vec3f(0.f), Vec3f(0.6f, 0.8f, 0.f)})

@@ -43,7 +43,7 @@ public:
     EmitterValue look(const Vec3f& from, const Vec3f& wi, Measure measure) const
     {
         const auto hit = scene_->intersect({from, wi});
-        return hit ? emitter().evaluate(from, wi, &*hit, measure) : EmitterValue();
+        return hit ? emitter().evaluate({from}, wi, &*hit, measure) : EmitterValue();
     }
 
 private:

@@ -35,7 +35,7 @@ TEST_CASE("light of point and directional emitters arrives in its closed form", 
     CHECK(seen.distance == 5.f);
     CHECK(length(seen.wi - Vec3f(0, 0.6f, 0.8f)) < 1e-6f);
     CHECK_FALSE(lamp->sample({Vec3f(0, 3, 4)}, 0.0, Vec2f(0.5f), Measure::best)); // at the light itself
-    CHECK(lamp->evaluate(Vec3f(0.f), seen.wi, nullptr, Measure::best).radiance.is_black());
+    CHECK(lamp->evaluate({Vec3f(0.f)}, seen.wi, nullptr, Measure::best).radiance.is_black());
     CHECK((lamp->is_delta() && !lamp->is_infinite()));
 
     const auto by_power = ParamsBuilder("emitter", "point")

@@ -86,7 +86,7 @@ double integral(const Function& f)
 
 EmitterValue seen(const Emitter& emitter, const Vec3f& wi)
 {
-    return emitter.evaluate(Vec3f(0.f), wi, nullptr, Measure::best);
+    return emitter.evaluate({Vec3f(0.f)}, wi, nullptr, Measure::best);
 }
 
 void check_color(const Color& a, const Color& b)
@@ -112,9 +112,9 @@ TEST_CASE("zUp exchanges y and z of an environment's directions", "[unit][enviro
     TestRandom random(7);
     for (int i = 0; i < 100; ++i) {
         const Vec3f d = random.direction();
-        const EmitterValue a = y_up->evaluate(Vec3f(0.f), d, nullptr, Measure::solid_angle);
+        const EmitterValue a = y_up->evaluate({Vec3f(0.f)}, d, nullptr, Measure::solid_angle);
         const EmitterValue b =
-            z_up->evaluate(Vec3f(0.f), Vec3f(d.x, d.z, d.y), nullptr, Measure::solid_angle);
+            z_up->evaluate({Vec3f(0.f)}, Vec3f(d.x, d.z, d.y), nullptr, Measure::solid_angle);
         CHECK(a.radiance == b.radiance);
         CHECK(a.pdf == b.pdf);
     }
@@ -196,7 +196,7 @@ TEST_CASE("samples of environment light agree with evaluate", "[unit][environmen
         const Measure measure = i % 2 == 0 ? Measure::best : Measure::area;
         const auto sample = emitter->sample({Vec3f(1.f, 2.f, 3.f)}, u_select, u, measure);
         REQUIRE(sample);
-        const EmitterValue value = emitter->evaluate(Vec3f(1.f, 2.f, 3.f), sample->wi, nullptr, measure);
+        const EmitterValue value = emitter->evaluate({Vec3f(1.f, 2.f, 3.f)}, sample->wi, nullptr, measure);
         CHECK(length(sample->wi) == Approx(1.f));
         CHECK(sample->distance == infinity);
         CHECK_FALSE(sample->is_delta);
@@ -204,7 +204,7 @@ TEST_CASE("samples of environment light agree with evaluate", "[unit][environmen
         CHECK(sample->radiance == value.radiance);
     }
     const SurfacePoint surface;
-    CHECK(emitter->evaluate(Vec3f(0.f), Vec3f(0, 1, 0), &surface, Measure::best).radiance.is_black());
+    CHECK(emitter->evaluate({Vec3f(0.f)}, Vec3f(0, 1, 0), &surface, Measure::best).radiance.is_black());
 }
 
 TEST_CASE("environment light is sampled with the density it claims", "[statistical][environment]")
@@ -300,7 +300,7 @@ TEST_CASE("black environments give no samples", "[unit][environment]")
                            .color("radiance", Color(0.f))
                            .build<EnvironmentEmitter, Emitter>();
     for (const Emitter* emitter : {image_of_nothing.get(), black.get()}) {
-        emitter->evaluate(Vec3f(0.f), Vec3f(0, 1, 0), nullptr, Measure::best);
+        emitter->evaluate({Vec3f(0.f)}, Vec3f(0, 1, 0), nullptr, Measure::best);
         CHECK_FALSE(emitter->sample({Vec3f(0.f)}, 0.5, {0.5f, 0.5f}, Measure::best));
         CHECK(seen(*emitter, Vec3f(0, 1, 0)).pdf == 0.f);
         CHECK(emitter->power() == 0.f);

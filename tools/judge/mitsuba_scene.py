@@ -244,9 +244,12 @@ def camera(scene, sampler):
     return result
 
 
-def build(scene, directory, sampler="independent"):
+def build(scene, directory, sampler="independent", robust=False):
+    """robust: Embree's rays do not pass between triangles that share an edge, as they do not in Plumb."""
     depth = scene.max_depth if scene.max_depth < 0 else scene.max_depth + 1  # Mitsuba counts the camera's ray
     result = {"type": "scene", "integrator": {"type": "path", "max_depth": depth}, "camera": camera(scene, sampler)}
+    if robust:
+        result["embree_use_robust_intersections"] = True
     for i, one in enumerate(scene.shapes):
         result[f"shape{i}"] = shape(one, directory)
     for i, one in enumerate(scene.lights):

@@ -55,8 +55,9 @@ def race(racers, results, reference, options):
                 seed = 100_000 + options.doublings * number + doubling
                 run = racer.render(spp, seed)
                 entry = {"round": number, "spp": spp, "seed": seed, "seconds": run.seconds, **estimates.errors(run.image, mean, variance)}
-                if run.rays_per_second:
-                    entry["rays_per_second"] = run.rays_per_second
+                for fact in ("cpu_seconds", "rays_per_second", "rays_per_path"):
+                    if getattr(run, fact):
+                        entry[fact] = getattr(run, fact)
                 results[name]["runs"].append(entry)
 
 

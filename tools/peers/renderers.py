@@ -3,6 +3,8 @@
 
 import json
 import os
+import resource
+import statistics
 import subprocess
 import sys
 import time
@@ -27,7 +29,9 @@ class Failed(Exception):
 class Run:
     image: object  # (height, width, 3)
     seconds: float  # of rendering alone
+    cpu_seconds: float = None  # the same, of all threads
     rays_per_second: float = None  # where the renderer reports it
+    rays_per_path: float = None
 
 
 @dataclass
@@ -58,14 +62,21 @@ def configurations(peers):
     if "mitsuba" in peers:
         if environment.llvm_library():
             found.append(Configuration("Mitsuba llvm_ad_rgb", "mitsuba", {"variant": "llvm_ad_rgb", "sampler": "independent"}, 1.0))
-            found.append(
-                Configuration("Mitsuba llvm_ad_rgb, multijitter", "mitsuba", {"variant": "llvm_ad_rgb", "sampler": "multijitter"}))
+            multijitter = {"variant": "llvm_ad_rgb", "sampler": "multijitter"}
+            found.append(Configuration("Mitsuba llvm_ad_rgb, multijitter", "mitsuba", multijitter))
+            found.append(Configuration("Mitsuba llvm_ad_rgb, multijitter, robust", "mitsuba", multijitter | {"robust": True}))
         found.append(Configuration("Mitsuba scalar_rgb", "mitsuba", {"variant": "scalar_rgb", "sampler": "independent"}, 1.0))
     if "cycles" in peers:
         found.append(Configuration("Cycles", "cycles"))
     if "luxcore" in peers:
         found.append(Configuration("LuxCore path", "luxcore"))
     return found
+
+
+def children_cpu_seconds():
+    """Of processes that have ended."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
 
 
 class Plumb:
@@ -79,24 +90,32 @@ class Plumb:
             self.words += ["--integrator", configuration.settings["integrator"]]
         self.peak_memory = 0
         self.loads = []
+        cpu_loads = []
         for _ in range(options.loads):
             start = time.perf_counter()
             report = self.run(1, 1)
             self.loads.append(time.perf_counter() - start - report["seconds"]["writing"])
+            cpu_loads.append(report["cpu_seconds"])
+        self.cpu_load = statistics.median(cpu_loads)  # of all but the rendering
         self.version = report["software"]
 
     def run(self, spp, seed):
         command = [PLUMB, self.scene, "-o", self.file, "--no-variance", "--json", "-", "--quiet", "--spp", spp, "--seed", seed]
+        before = children_cpu_seconds()
         result = subprocess.run([*map(str, command), *self.words], capture_output=True, text=True, check=False)
+        cpu_seconds = children_cpu_seconds() - before
         if result.returncode != 0:
             raise Failed(result.stderr.strip())
         report = json.loads(result.stdout)
         self.peak_memory = max(self.peak_memory, report["peak_memory_bytes"])
-        return report
+        return report | {"cpu_seconds": cpu_seconds}
 
     def render(self, spp, seed):
         report = self.run(spp, seed)
-        return Run(images.read(self.file), report["seconds"]["rendering"], report["rays_per_second"])
+        rays = report["rays"]
+        cpu_seconds = max(report["cpu_seconds"] - self.cpu_load, 0.001)
+        return Run(images.read(self.file), report["seconds"]["rendering"], cpu_seconds, report["rays_per_second"],
+                   rays["total"] / rays["camera"])  # fmt: skip
 
     def close(self):
         pass
@@ -142,7 +161,7 @@ class Worker:
         self.process.stdin.write(json.dumps({"spp": spp, "seed": seed, "file": str(file)}) + "\n")
         found = self.answer()
         self.peak_memory = max(self.peak_memory, found["peak_memory"])
-        return Run(np.load(file).astype(np.float64), found["seconds"])
+        return Run(np.load(file).astype(np.float64), found["seconds"], found["cpu_seconds"])
 
     def close(self):
         self.process.stdin.close()

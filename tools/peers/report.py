@@ -4,7 +4,7 @@
 import statistics
 
 import plots
-from estimates import Convergence
+from estimates import ERRORS, Convergence
 
 
 def agrees(result):
@@ -41,12 +41,22 @@ def number(value):
 
 
 def speed(scene, size, result):
-    """Camera paths and rays, millions a second, of the runs with most samples."""
+    """Millions of camera paths and of rays a second, of paths a second of CPU time, and rays a path; of the runs with most
+    samples."""
     most = max(run["spp"] for run in result["runs"])
     runs = [run for run in result["runs"] if run["spp"] == most]
-    paths = statistics.median(size[0] * size[1] * run["spp"] / run["seconds"] for run in runs) / 1e6
-    rays = [run["rays_per_second"] / 1e6 for run in runs if "rays_per_second" in run]
-    return number(paths), number(statistics.median(rays)) if rays else "-"
+    paths = size[0] * size[1] * most / 1e6
+
+    def median(values):
+        values = list(values)
+        return number(statistics.median(values)) if values else "-"
+
+    return (
+        median(paths / run["seconds"] for run in runs),
+        median(run["rays_per_second"] / 1e6 for run in runs if "rays_per_second" in run),
+        median(paths / run["cpu_seconds"] for run in runs if "cpu_seconds" in run),
+        median(run["rays_per_path"] for run in runs if "rays_per_path" in run),
+    )
 
 
 def verdict(result):
@@ -74,32 +84,37 @@ def why_not(result):
 
 def details(found, scene):
     """One row a configuration: loading, speed, memory, agreement, and the times to equal error."""
-    curves = {error: fits(found, scene, error) for error in ("mse", "relmse")}
+    curves = {error: fits(found, scene, error) for error in ERRORS}
     if not curves["mse"]:
         return "No renderer agrees with another.\n"
-    best, mse = target(scene, curves["mse"])
-    relative_best, relmse = target(scene, curves["relmse"])
-    error = mse**0.5
+    best, targets = {}, {}
+    for error in ERRORS:
+        best[error], targets[error] = target(scene, curves[error])
+    rmse = targets["mse"] ** 0.5
     lines = [
-        f"Seconds to RMSE {error:.3g} ({100 * error / scene['reference_mean']:.2g} % of the mean), as {best} has it, "
-        f"and to relMSE {relmse:.2g}, as {relative_best} has it.",
+        f"Seconds to RMSE {rmse:.3g} ({100 * rmse / scene['reference_mean']:.2g} % of the mean), as {best['mse']} has it, "
+        f"to relMSE {targets['relmse']:.2g}, as {best['relmse']} has it, and to trimmed RMSE {targets['trimmed'] ** 0.5:.3g} "
+        f"(without the 2 % of pixels where it is largest), as {best['trimmed']} has it.",
         "",
-        "| | load s | Mpaths/s | Mrays/s | MB | agrees | to RMSE s | and load | times best peer | to relMSE s | times best peer |",
-        "|---|---|---|---|---|---|---|---|---|---|---|",
+        "| | load s | Mpaths/s | Mrays/s | Mpaths/CPU s | rays/path | MB | agrees | to RMSE s | and load | times best peer "
+        "| to relMSE s | times best peer | to trimmed RMSE s | times best peer |",
+        "|---" * 15 + "|",
     ]
     for name, result in scene["configurations"].items():
         if "left_out" in result:
-            lines.append(f"| {name} | left out: {result['left_out']} | | | | | | | | | |")
+            lines.append(f"| {name} | left out: {result['left_out']} " + "| " * 13 + "|")
             continue
         load = statistics.median(result["loads"])
         cells = [name, number(load), *speed(scene, found["size"], result), f"{result['peak_memory'] / 1e6:.0f}", verdict(result)]
         if agrees(result):
-            seconds = curves["mse"][name].seconds_to(mse)
-            relative = curves["relmse"][name].seconds_to(relmse)
-            cells += [number(seconds), number(seconds + load), number(curves["mse"][best].seconds_to(mse) / seconds),
-                      number(relative), number(curves["relmse"][relative_best].seconds_to(relmse) / relative)]  # fmt: skip
+            for error in ERRORS:
+                seconds = curves[error][name].seconds_to(targets[error])
+                cells.append(number(seconds))
+                if error == "mse":
+                    cells.append(number(seconds + load))
+                cells.append(number(curves[error][best[error]].seconds_to(targets[error]) / seconds))
         else:
-            cells += ["-"] * 5
+            cells += ["-"] * 7
         lines.append("| " + " | ".join(cells) + " |")
     return "\n".join(lines) + "\n"
 

@@ -4,7 +4,7 @@
     worker.py RENDERER SETTINGS
 
 SETTINGS is JSON: scene, directory (its files), width, height, quick, threads, and the renderer's own. Requests are lines
-of JSON, {"spp": N, "seed": N, "file": X.npy}; answers too: {"seconds": X, "peak_memory": N}. The first answer, with the
+of JSON, {"spp": N, "seed": N, "file": X.npy}; answers too: {"seconds": X, "cpu_seconds": X, "peak_memory": N}. The first answer, with the
 renderer's version, comes when a first image of one sample per pixel is rendered.
 """
 
@@ -12,6 +12,7 @@ import importlib
 import json
 import os
 import sys
+import time
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -23,6 +24,7 @@ sys.path[:0] = [str(HERE), str(HERE.parent / "judge")]
 class Rendered:
     image: object  # a function that fetches it
     seconds: float  # of rendering alone
+    cpu_seconds: float = None  # of all threads; where the peer does not tell, those of the whole request
 
 
 def answers():
@@ -53,9 +55,11 @@ def main():
 
     for line in sys.stdin:
         request = json.loads(line)
+        start = time.process_time()
         rendered = peer.render(request["spp"], request["seed"])
+        cpu_seconds = rendered.cpu_seconds or time.process_time() - start
         np.save(request["file"], np.asarray(rendered.image(), dtype=np.float32))
-        print(json.dumps({"seconds": rendered.seconds, "peak_memory": peak_memory()}), file=channel)
+        print(json.dumps({"seconds": rendered.seconds, "cpu_seconds": cpu_seconds, "peak_memory": peak_memory()}), file=channel)
 
 
 if __name__ == "__main__":

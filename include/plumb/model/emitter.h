@@ -5,6 +5,7 @@
 
 #include "plumb/math/color.h"
 #include "plumb/math/direction_cone.h"
+#include "plumb/model/light_receiver.h"
 #include "plumb/model/surface.h"
 
 #include <optional>
@@ -17,16 +18,6 @@ namespace plumb {
 enum class Measure { best, area, solid_angle };
 
 class Emitter;
-
-// Where light arrives, as far as the choice among emitters may depend on it. World space.
-struct LightReceiver {
-    Vec3f position{0.f};
-    Vec3f normal{0.f};      // unit vector: only light from its side counts; zero: light from all around does
-    bool is_glossy = false; // some directions count more than the cosine says
-
-    // wi: towards the light, of any length.
-    bool counts_light_from(const Vec3f& wi) const { return !(dot(wi, normal) < 0.f); }
-};
 
 struct EmitterValue {
     Color radiance;
@@ -73,9 +64,10 @@ public:
     virtual std::optional<EmitterSample> sample(const LightReceiver& receiver, double u_select,
                                                 const Vec2f& u, Measure measure) const = 0;
 
-    // What a ray from `from` along unit wi sees of this emitter: at the surface point `at` for area lights, or with
-    // at == nullptr when the ray has left the scene. Zero for point and directional lights.
-    virtual EmitterValue evaluate(const Vec3f& from, const Vec3f& wi, const SurfacePoint* at,
+    // What a ray from the receiver along unit wi sees of this emitter: at the surface point `at` for area lights, or with
+    // at == nullptr when the ray has left the scene. Zero for point and directional lights. The density is that of
+    // samples for the same receiver.
+    virtual EmitterValue evaluate(const LightReceiver& receiver, const Vec3f& wi, const SurfacePoint* at,
                                   Measure measure) const = 0;
 
     // Emitted power in watts, luminance-weighted; of an infinite emitter what enters the scene's sphere. Positive unless

@@ -6,6 +6,7 @@
 #include "plumb/math/color.h"
 #include "plumb/math/direction_cone.h"
 #include "plumb/math/ray.h"
+#include "plumb/model/light_receiver.h"
 #include "plumb/model/surface.h"
 
 #include <array>
@@ -97,6 +98,14 @@ public:
     virtual std::optional<float> solid_angle_pdf(const Vec3f& from) const;
     // Whether sample_solid_angle ever returns something.
     virtual bool has_solid_angle() const { return false; }
+
+    // Of parts that send the receiver different light those that send it more, more often; pdf per unit area. Nothing where
+    // the parts that u_select leads to send it none. Only shapes that have parts can do that, after prepare_sampling.
+    virtual std::optional<ShapeSample> sample_for(const LightReceiver& receiver, double u_select,
+                                                  const Vec2f& u) const;
+    // The density of sample_for() at the points of a primitive.
+    virtual double pdf_for(const LightReceiver& receiver, std::uint32_t primitive) const;
+    virtual bool has_parts() const { return false; }
 
     virtual float area() const = 0;
     virtual Box3f bounds() const = 0;

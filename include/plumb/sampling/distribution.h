@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -35,6 +36,24 @@ public:
         return cdf_.size() == 2 ? Choice{0, 1.f, std::clamp(u, 0.0, largest_below_one)} : sample_several(u);
     }
     float probability(std::size_t index) const { return static_cast<float>(cdf_[index + 1] - cdf_[index]); }
+
+    // The same among the things from number `first` to the one before `last`; nothing where they have no weight.
+    struct Pick {
+        std::uint32_t index;
+        double share; // of theirs
+    };
+    std::optional<Pick> sample_among(std::size_t first, std::size_t last, double u) const;
+    double share_among(std::size_t index, std::size_t first,
+                       std::size_t last) const // 0 where they have no weight
+    {
+        const double all = cdf_[last] - cdf_[first];
+        return all > 0.0 ? (cdf_[index + 1] - cdf_[index]) / all : 0.0;
+    }
+
+    std::uint64_t memory_bytes() const
+    {
+        return cdf_.capacity() * sizeof(double) + guide_.capacity() * sizeof(std::uint32_t);
+    }
 
 private:
     static constexpr double largest_below_one = 0x1.fffffffffffffp-1;

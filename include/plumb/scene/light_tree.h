@@ -18,7 +18,7 @@
 //
 // Built serially, in double precision: the same tree everywhere.
 
-#include "plumb/model/emitter.h"
+#include "plumb/model/light_lanes.h"
 #include "plumb/sampling/distribution.h"
 
 #include <array>
@@ -59,18 +59,14 @@ public:
     }
 
 private:
-    static constexpr std::size_t width = 8;
+    static constexpr std::size_t width = LightLanes::width;
     static constexpr std::uint32_t none = ~std::uint32_t{0};
     static constexpr double largest_below_one = 0x1.fffffffffffffp-1;
 
-    // Children lane by lane, so that one instruction serves them all. Lengths are multiplied by scale_. Missing
-    // children have no intensity.
+    // The children are lanes, in multiples of scale_ and of the largest power.
     struct alignas(64) Node {
-        using Lanes = std::array<float, width>;
-        Lanes x{}, y{}, z{}, radius{};                        // the sphere around the lights
-        Lanes axis_x{}, axis_y{}, axis_z{}, cosine{}, sine{}; // the cone of normals, and of its angle
-        Lanes intensity{};                                    // towards the axis, over the largest power
-        std::array<std::uint32_t, width> child{};             // a node, or an emitter with emitter_bit
+        LightLanes lights;
+        std::array<std::uint32_t, width> child{}; // a node, or an emitter with emitter_bit
     };
     static constexpr std::uint32_t emitter_bit = std::uint32_t{1} << 31;
 
@@ -83,14 +79,13 @@ private:
     static constexpr unsigned bits_per_level = 3;
 
     class Builder;
-    struct Receiver;
     struct Shares;
 
     std::optional<Choice> choose_at_glossy(const LightReceiver& receiver, double u) const;
     float probability_at_glossy(const LightReceiver& receiver, std::size_t index) const;
     std::optional<Choice> choose_among_several(const LightReceiver& receiver, double u) const;
     float probability_among_several(const LightReceiver& receiver, std::size_t index) const;
-    Shares shares(std::uint32_t node, const Receiver& receiver) const;
+    Shares shares(std::uint32_t node, const LaneReceiver& receiver) const;
 
     std::uint32_t only_ = none; // the emitter, if there is one only
     std::vector<Node> nodes_;   // the root is the first
