@@ -110,6 +110,7 @@ TestRun test_scene_mean(const TestFile& file, const RenderJob& job, double refer
                         const RunOptions& options)
 {
     const Vec2f size(job.camera->resolution());
+    job.integrator->train(*job.scene, options.threads);
     const Seen seen = gather(file, options, [&] {
         return [&, tracer = Tracer(*job.scene)](Sampler& sampler) mutable {
             const Vec2f u_film = sampler.next_2d();

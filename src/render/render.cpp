@@ -188,6 +188,16 @@ Rendering::Rendering(const RenderJob& job, const RenderOptions& options, RenderS
                                 layer_names(state_.film.layers()), layer_names(wanted)));
 }
 
+// Every rendering pays for what its integrator has learnt, whoever was the first to ask for it: the time of an image does not
+// depend on which others were made before.
+void Rendering::train()
+{
+    if (is_trained_) return;
+    job_.integrator->train(*job_.scene, options_.threads);
+    if (const auto guide = job_.integrator->guide()) state_.seconds += guide->seconds;
+    is_trained_ = true;
+}
+
 bool Rendering::take(const SampleSet& wanted, const ProgressReport& progress, const Pause& pause,
                      const TileReport& tile_report)
 {
@@ -200,6 +210,7 @@ bool Rendering::take(const SampleSet& wanted, const ProgressReport& progress, co
     }
     const std::uint64_t total = render_samples(job_, options_);
     check_total(job_, end, total);
+    if (!missing.empty()) train();
     Reporter reporter(progress, (wanted & state_.taken).count(), wanted.count());
     const SampleLayers layers(job_, options_);
     oneapi::tbb::enumerable_thread_specific<Worker> workers([&] { return Worker(job_, total, layers); });
@@ -272,6 +283,7 @@ ReplayedSample replay(const RenderJob& job, const RenderOptions& options, Vec2i 
                                 size.x, size.y));
     const std::uint64_t total = render_samples(job, options);
     check_total(job, sample_index + 1, total);
+    job.integrator->train(*job.scene, options.threads);
     const FlushDenormals flush;
     ReplayedSample replayed;
     Tracer tracer(*job.scene, {.log = &replayed.log});
