@@ -11,7 +11,7 @@
 // neighbour sees the lamp's image in another direction. How far the image is and how wide the cone must be is what
 // the photons of the cell say of each other.
 
-#include "plumb/model/integrator.h"
+#include "plumb/model/guide.h"
 #include "plumb/scene/scene.h"
 
 #include <array>

@@ -4,6 +4,7 @@
 
 #include "integrators/guided_path.h"
 #include "model/plugin.h"
+#include "plumb/model/integrator.h"
 
 #include <mutex>
 
@@ -26,7 +27,7 @@ namespace plumb {
 ///         <integrator type="path_mis">
 ///             <string name="heuristic" value="balance"/>
 ///         </integrator>
-class PathMis final : public Integrator {
+class PathMis final : public Integrator, public Guided {
 public:
     explicit PathMis(const Params& params)
         : estimator_(PathEstimator::LightStrategy::both, PathLimits(params), heuristic_of(params)),

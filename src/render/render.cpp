@@ -5,6 +5,7 @@
 #include "base/float_mode.h"
 #include "base/parallel.h"
 #include "plumb/base/error.h"
+#include "plumb/model/guide.h"
 #include "plumb/scene/tracer.h"
 #include "render/film_edge.h"
 #include "render/sample_layers.h"
@@ -186,16 +187,9 @@ Rendering::Rendering(const RenderJob& job, const RenderOptions& options, RenderS
     if (const ChannelSet wanted = render_layers(job, options); state_.film.layers() != wanted)
         throw Error(fmt::format("the samples so far have the layers {}, not {}",
                                 layer_names(state_.film.layers()), layer_names(wanted)));
-}
-
-// Every rendering pays for what its integrator has learnt, whoever was the first to ask for it: the time of an image does not
-// depend on which others were made before.
-void Rendering::train()
-{
-    if (is_trained_) return;
-    job_.integrator->train(*job_.scene, options_.threads);
-    if (const auto guide = job_.integrator->guide()) state_.seconds += guide->seconds;
-    is_trained_ = true;
+    // Every rendering pays for what its integrator has learnt, whoever was the first to ask for it: the time of an image does not
+    // depend on which others were made before.
+    if (const auto guide = train(*job_.integrator, *job_.scene, options_.threads)) state_.seconds += guide->seconds;
 }
 
 bool Rendering::take(const SampleSet& wanted, const ProgressReport& progress, const Pause& pause,
@@ -210,7 +204,6 @@ bool Rendering::take(const SampleSet& wanted, const ProgressReport& progress, co
     }
     const std::uint64_t total = render_samples(job_, options_);
     check_total(job_, end, total);
-    if (!missing.empty()) train();
     Reporter reporter(progress, (wanted & state_.taken).count(), wanted.count());
     const SampleLayers layers(job_, options_);
     oneapi::tbb::enumerable_thread_specific<Worker> workers([&] { return Worker(job_, total, layers); });
@@ -283,7 +276,7 @@ ReplayedSample replay(const RenderJob& job, const RenderOptions& options, Vec2i 
                                 size.x, size.y));
     const std::uint64_t total = render_samples(job, options);
     check_total(job, sample_index + 1, total);
-    job.integrator->train(*job.scene, options.threads);
+    train(*job.integrator, *job.scene, options.threads);
     const FlushDenormals flush;
     ReplayedSample replayed;
     Tracer tracer(*job.scene, {.log = &replayed.log});

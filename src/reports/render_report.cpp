@@ -196,7 +196,7 @@ Report make_report(const RenderSession& session, Evidence evidence)
     report.parse_seconds = scene.parse_seconds;
     report.build_seconds = scene.build_seconds;
     report.render_seconds = state.seconds;
-    report.guide = scene.job.integrator->guide();
+    report.guide = guide_of(*scene.job.integrator);
     report.rays = state.rays;
     report.evidence = std::move(evidence);
     report.threads = render_threads(task.options);

@@ -4,6 +4,7 @@
 
 #include "integrators/caustic_guide.h"
 #include "integrators/caustic_photons.h"
+#include "plumb/model/guide.h"
 #include "plumb/sampling/sampling.h"
 #include "support/catch.h"
 #include "support/integrators.h"
@@ -162,7 +163,8 @@ TEST_CASE("light from a lamp behind a pane has its integral, with and without a 
 TEST_CASE("a guide makes caustics less noisy", "[statistical][guide]")
 {
     // 20 samples in the place of one, at least; where the pane lets all light through it is about a hundred.
-    for (const Scene& scene : {mirrored_lamp(), lamp_behind_pane()}) {
+    for (const auto& make_scene : {mirrored_lamp, lamp_behind_pane}) {
+        const Scene scene = make_scene();
         const double guided = light_at_the_floor(scene, true, 20'000, 1).variance();
         const double unguided = light_at_the_floor(scene, false, 200'000, 1).variance();
         CHECK(guided < 0.05 * unguided);
@@ -200,7 +202,7 @@ TEST_CASE("there is no guide where there is nothing to guide", "[statistical][gu
 {
     const auto facts = [](LittleScene& little, const ParamsBuilder& params) {
         const Scene scene = little.build();
-        return make_integrator(params, scene)->guide();
+        return guide_of(*make_integrator(params, scene));
     };
     const auto path_mis = [] { return integrator_params("path_mis"); };
     LittleScene lit = balls();

@@ -2,6 +2,7 @@
 
 #include "support/integrators.h"
 
+#include "plumb/model/guide.h"
 #include "scene_file/catalog.h"
 
 #include <stdexcept>
@@ -26,7 +27,7 @@ std::unique_ptr<Integrator> make_integrator(const ParamsBuilder& params, const S
 {
     auto integrator = params.build_with(builder_of(params.type()));
     integrator->prepare(scene);
-    integrator->train(scene, 1);
+    train(*integrator, scene, 1);
     return integrator;
 }
 

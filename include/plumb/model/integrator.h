@@ -6,8 +6,6 @@
 #include "plumb/math/color.h"
 #include "plumb/math/ray.h"
 
-#include <cstdint>
-#include <optional>
 #include <string>
 
 namespace plumb {
@@ -16,26 +14,12 @@ class Sampler;
 class Scene;
 class Tracer;
 
-// What an integrator has learnt about where light comes from, and how long that took.
-struct GuideFacts {
-    std::uint64_t emitted = 0; // photons
-    std::uint64_t arrived = 0; // of them, on surfaces that a guide can serve
-    std::uint64_t cells = 0;   // of the surfaces, that have a guide; 0: there is none, and nothing is slower for it
-    double seconds = 0.0;
-};
-
 class Integrator {
 public:
     virtual ~Integrator() = default;
 
     // Called once, when the scene is complete. Throws Error if the integrator cannot render it.
     virtual void prepare(const Scene&) {}
-
-    // Learns from the scene that it is prepared for what makes radiance() less noisy: a pure function of the scene. Before a
-    // rendering's first sample; only the first call takes time. From any thread. threads as in RenderOptions.
-    virtual void train(const Scene&, int /*threads*/) const {}
-    // What train() has learnt; nothing where there was nothing to be trained.
-    virtual std::optional<GuideFacts> guide() const { return std::nullopt; }
 
     // An unbiased estimate of the radiance that arrives along `ray`, against its direction. Calls the sampler in an
     // order that depends on the path alone.

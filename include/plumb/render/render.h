@@ -64,7 +64,7 @@ struct RenderState {
     SampleSet taken; // those left out included
     RayCounts rays;
     LeftOut left_out;
-    double seconds = 0.0; // of rendering, and of training what guides it
+    double seconds = 0.0; // of rendering
 
     // Adds the work of another; of the same job, seed and window, and with none of its samples.
     RenderState& operator+=(const RenderState& other);
@@ -110,12 +110,9 @@ public:
     RenderState finish() && { return std::move(state_); }
 
 private:
-    void train();
-
     const RenderJob job_;
     const RenderOptions options_;
     RenderState state_;
-    bool is_trained_ = false;
 };
 
 // All samples that the options ask for.

@@ -3,6 +3,7 @@
 
 // The report of a run that --json writes: what the header of an image does not say, times and machine included.
 
+#include "plumb/model/guide.h"
 #include "plumb/rendering/session.h"
 #include "plumb/scene/scene.h"
 
