@@ -5,6 +5,8 @@
 #include "plumb/math/frame.h"
 #include "plumb/sampling/sampling.h"
 
+#include <cstring>
+
 namespace plumb {
 namespace {
 
@@ -47,21 +49,25 @@ std::optional<GuidedDirection> GuideCell::sample(const Vec3f& from, float u_choi
 float GuideCell::pdf(const Vec3f& from, const Vec3f& direction) const
 {
     // Inside a cone is where the cross product of direction and axis is short: exact where cones are narrow.
-    constexpr std::size_t lanes = 8;
-    std::array<float, lanes> sums{};
-    for (std::size_t first = 0; first < most_photons; first += lanes) {
-        for (std::size_t lane = 0; lane < lanes; ++lane) {
-            const std::size_t i = first + lane;
-            const float vx = x_[i] - from.x, vy = y_[i] - from.y, vz = z_[i] - from.z;
-            const float cx = direction.y * vz - direction.z * vy;
-            const float cy = direction.z * vx - direction.x * vz;
-            const float cz = direction.x * vy - direction.y * vx;
-            const float cosine = direction.x * vx + direction.y * vy + direction.z * vz;
-            const float cross2 = cx * cx + cy * cy + cz * cz;
-            const float size2 = vx * vx + vy * vy + vz * vz;
-            const bool inside = (cosine > 0.f) & (cross2 <= sine_squared_[i] * size2);
-            sums[lane] += inside ? density_[i] : 0.f;
-        }
+    using Lanes [[gnu::vector_size(32)]] = float;
+    const auto lanes_of = [](const std::array<float, most_photons>& from, std::size_t first) {
+        Lanes lanes;
+        std::memcpy(&lanes, from.data() + first, sizeof lanes);
+        return lanes;
+    };
+    Lanes sums{};
+    for (std::size_t first = 0; first < most_photons; first += sizeof(Lanes) / sizeof(float)) {
+        const Lanes vx = lanes_of(x_, first) - from.x;
+        const Lanes vy = lanes_of(y_, first) - from.y;
+        const Lanes vz = lanes_of(z_, first) - from.z;
+        const Lanes cx = direction.y * vz - direction.z * vy;
+        const Lanes cy = direction.z * vx - direction.x * vz;
+        const Lanes cz = direction.x * vy - direction.y * vx;
+        const Lanes cosine = direction.x * vx + direction.y * vy + direction.z * vz;
+        const Lanes cross2 = cx * cx + cy * cy + cz * cz;
+        const Lanes size2 = vx * vx + vy * vy + vz * vz;
+        const auto inside = (cosine > 0.f) & (cross2 <= lanes_of(sine_squared_, first) * size2);
+        sums += inside ? lanes_of(density_, first) : Lanes{};
     }
     return ((sums[0] + sums[1]) + (sums[2] + sums[3])) + ((sums[4] + sums[5]) + (sums[6] + sums[7]));
 }
