@@ -3,6 +3,7 @@
 #include "base/parallel.h"
 #include "estimator_checks/statistic.h"
 #include "plumb/math/elementary.h"
+#include "plumb/model/guide.h"
 #include "plumb/scene/tracer.h"
 #include "plumb/statistics/mean_and_variance.h"
 #include "plumb/statistics/statistics.h"
@@ -110,6 +111,7 @@ TestRun test_scene_mean(const TestFile& file, const RenderJob& job, double refer
                         const RunOptions& options)
 {
     const Vec2f size(job.camera->resolution());
+    train(*job.integrator, *job.scene, options.threads);
     const Seen seen = gather(file, options, [&] {
         return [&, tracer = Tracer(*job.scene)](Sampler& sampler) mutable {
             const Vec2f u_film = sampler.next_2d();

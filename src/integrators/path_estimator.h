@@ -61,6 +61,8 @@ public:
     }
     float survival(const PathState& path, int bounces) const;
 
+    Heuristic heuristic() const { return heuristic_; }
+
 private:
     LightStrategy strategy_;
     PathLimits limits_;

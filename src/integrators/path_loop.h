@@ -12,6 +12,13 @@
 //     std::optional<BsdfSample> scatter(Sampler&, const Vertex&) const   where the path goes on
 //     float survival(const PathState&, int bounces) const       the chance that it does; 1: no roulette
 //     bool hides_emitters() const                               optional: does the camera see through emitters?
+//
+// and, all or none, of techniques that look for emitters behind delta bounces by other means, too (guided_path.h):
+//
+//     State                                                     a PathState that knows more
+//     float chain_weight(const State&) const                    the weight of what the path meets after delta bounces
+//     Color with_chains(Tracer&, Sampler&, State&, const Vertex&, int bounces, const Color& sum) const
+//                                                               the sum so far, and what the other means find from the vertex
 
 #include "integrators/vertex.h"
 #include "plumb/model/sampler.h"
@@ -55,6 +62,21 @@ struct PathState {
     }
 };
 
+// The state that the technique wants.
+template <class Technique>
+concept LooksBehindDeltaBounces = requires
+{
+    typename Technique::State;
+};
+template <class Technique>
+struct StateOf {
+    using Type = PathState;
+};
+template <LooksBehindDeltaBounces Technique>
+struct StateOf<Technique> {
+    using Type = typename Technique::State;
+};
+
 // Whether emitters and environments are not there for the path's last ray.
 template <class Technique>
 bool sees_no_emitters(const Technique& technique, const PathState& path)
@@ -84,16 +106,26 @@ void note_emission(Tracer& tracer, const PathState& path, int depth, const Color
                    const std::optional<SurfacePoint>& hit);
 void note_direct(Tracer& tracer, const PathState& path, int depth, const Color& before, std::size_t first);
 
+template <class Technique>
+float weight_behind_delta_bounces(const Technique& technique, const typename StateOf<Technique>::Type& path)
+{
+    if constexpr (LooksBehindDeltaBounces<Technique>)
+        return technique.chain_weight(path);
+    else
+        return 1.f;
+}
+
 // What the path's last ray sees, if the technique counts it.
 template <class Technique>
-Color emitted(const Technique& technique, Tracer& tracer, const PathState& path, const Ray& ray,
-              const std::optional<SurfacePoint>& hit)
+Color emitted(const Technique& technique, Tracer& tracer, const typename StateOf<Technique>::Type& path,
+              const Ray& ray, const std::optional<SurfacePoint>& hit)
 {
     if ((hit && !hit->emitter) || !technique.counts_emission(path) || sees_no_emitters(technique, path))
         return Color(0.f);
     const EmitterValue light = tracer.scene().emission(path.receiver, ray.direction, hit ? &*hit : nullptr);
     if (light.radiance.is_black()) return Color(0.f);
-    const float weight = path.delta ? 1.f : technique.emission_weight(path, light.pdf);
+    const float weight = path.delta ? weight_behind_delta_bounces(technique, path)
+                                    : technique.emission_weight(path, light.pdf);
     const Color contribution = path.throughput * light.radiance * weight;
     if (tracer.logging()) tracer.log_contribution(PathEvent::Kind::emission, "emission", contribution);
     return contribution;
@@ -135,7 +167,7 @@ Color trace_path(const Technique& technique, Tracer& tracer, Sampler& sampler, R
     };
     const bool may_pass = tracer.scene().has_null_surfaces();
     Color result(0.f);
-    PathState path(ray.origin);
+    typename StateOf<Technique>::Type path(ray.origin);
     int bounces = 0;
     for (int surfaces = 0;; ++surfaces) {
         const RayKind kind = surfaces == 0 ? RayKind::camera : RayKind::bounce;
@@ -164,6 +196,8 @@ Color trace_path(const Technique& technique, Tracer& tracer, Sampler& sampler, R
             result += scattered(technique, tracer, sampler, path, vertex);
             if (tracer.light_notes()) [[unlikely]]
                 note_direct(tracer, path, bounces + 1, before, noted);
+            if constexpr (LooksBehindDeltaBounces<Technique>)
+                result = technique.with_chains(tracer, sampler, path, vertex, bounces, result);
         }
         if (!next) return end("the surface absorbs the path"), result;
         if (may_pass && next->is_pass()) {

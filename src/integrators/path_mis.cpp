@@ -2,8 +2,11 @@
 
 // [1] Veach 1997, "Robust Monte Carlo Methods for Light Transport Simulation", section 9.2
 
-#include "integrators/path_estimator.h"
+#include "integrators/guided_path.h"
 #include "model/plugin.h"
+#include "plumb/model/integrator.h"
+
+#include <mutex>
 
 namespace plumb {
 
@@ -21,17 +24,48 @@ namespace plumb {
 ///     heuristic   string    how the two share: power or balance   (default power)
 ///     candidates  integer   emitter samples at the first glossy surface of a path; one of them is followed, chosen by what it
 ///                           would add if nothing were in the way   (default 4)
+///     guide       boolean   whether surfaces that scatter also look for lamps behind mirrors and glass   (default true)
 ///
 ///         <integrator type="path_mis">
 ///             <string name="heuristic" value="balance"/>
 ///         </integrator>
-class PathMis final : public EstimatorIntegrator {
+class PathMis final : public Integrator, public Guided {
 public:
     explicit PathMis(const Params& params)
-        : EstimatorIntegrator(
-              PathEstimator(PathEstimator::LightStrategy::both, PathLimits(params), heuristic_of(params),
-                            static_cast<int>(params.integer("candidates", 4, Range::closed(1, 64)))))
+        : estimator_(PathEstimator::LightStrategy::both, PathLimits(params), heuristic_of(params),
+                     static_cast<int>(params.integer("candidates", 4, Range::closed(1, 64)))),
+          may_guide_(params.boolean("guide", true) && estimator_.max_depth() != 0 &&
+                     estimator_.max_depth() != 1)
     {}
+
+    void train(const Scene& scene, int threads) const override
+    {
+        if (!may_guide_) return;
+        std::call_once(trained_, [&] {
+            guide_.emplace(CausticGuide::learn(scene, threads));
+            if (guide_->is_on()) guided_.emplace(estimator_, *guide_);
+        });
+    }
+
+    std::optional<GuideFacts> guide() const override
+    {
+        return guide_ && guide_->facts().emitted > 0 ? std::optional(guide_->facts()) : std::nullopt;
+    }
+
+    Color radiance(Tracer& tracer, Sampler& sampler, const Ray& ray) const override
+    {
+        return guided_ ? guided_->radiance(tracer, sampler, ray) : estimator_.radiance(tracer, sampler, ray);
+    }
+
+    std::string bias() const override { return estimator_.bias(); }
+    bool notes_light() const override { return true; }
+
+private:
+    PathEstimator estimator_;
+    bool may_guide_;
+    mutable std::once_flag trained_;
+    mutable std::optional<CausticGuide> guide_;
+    mutable std::optional<GuidedPath> guided_; // where the guide is on
 };
 
 template std::unique_ptr<Integrator> build<PathMis>(const Params&);

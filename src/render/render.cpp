@@ -5,6 +5,7 @@
 #include "base/float_mode.h"
 #include "base/parallel.h"
 #include "plumb/base/error.h"
+#include "plumb/model/guide.h"
 #include "plumb/render/adaptive.h"
 #include "plumb/scene/tracer.h"
 #include "render/film_edge.h"
@@ -253,6 +254,10 @@ Rendering::Rendering(const RenderJob& job, const RenderOptions& options, RenderS
         throw Error(
             "the sampler depends on the total number of samples per pixel, and an adaptive rendering has "
             "another number in each pixel");
+    // Every rendering pays for what its integrator has learnt, whoever was the first to ask for it: the time of an image does not
+    // depend on which others were made before.
+    if (const auto guide = train(*job_.integrator, *job_.scene, options_.threads))
+        state_.seconds += guide->seconds;
 }
 
 bool Rendering::take(const SampleSet& wanted, const ProgressReport& progress, const Pause& pause,
@@ -364,6 +369,7 @@ ReplayedSample replay(const RenderJob& job, const RenderOptions& options, Vec2i 
                                 size.x, size.y));
     const std::uint64_t total = render_samples(job, options);
     check_total(job, sample_index + 1, total);
+    train(*job.integrator, *job.scene, options.threads);
     const FlushDenormals flush;
     ReplayedSample replayed;
     Tracer tracer(*job.scene, {.log = &replayed.log});

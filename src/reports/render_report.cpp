@@ -72,6 +72,7 @@ void write_work(JsonWriter& json, const Report& report)
     json.number("parsing", report.parse_seconds);
     json.number("building", report.build_seconds);
     json.number("rendering", report.render_seconds);
+    json.number("training", report.guide ? report.guide->seconds : 0.0);
     json.number("writing", report.write_seconds);
     json.number("total", report.total_seconds);
     json.end_object();
@@ -90,6 +91,16 @@ void write_work(JsonWriter& json, const Report& report)
     json.integer("film", report.film_bytes);
     json.end_object();
     json.integer("peak_memory_bytes", report.peak_memory);
+}
+
+void write_guide(JsonWriter& json, const std::optional<GuideFacts>& guide)
+{
+    if (!guide) return json.null("guide");
+    json.begin_object("guide");
+    json.integer("emitted", guide->emitted);
+    json.integer("arrived", guide->arrived);
+    json.integer("cells", guide->cells);
+    json.end_object();
 }
 
 void write_left_out(JsonWriter& json, const LeftOut& left_out)
@@ -204,6 +215,7 @@ Report make_report(const RenderSession& session, Evidence evidence)
     report.parse_seconds = scene.parse_seconds;
     report.build_seconds = scene.build_seconds;
     report.render_seconds = state.seconds;
+    report.guide = guide_of(*scene.job.integrator);
     report.rays = state.rays;
     report.evidence = std::move(evidence);
     report.threads = render_threads(task.options);
@@ -223,6 +235,10 @@ std::vector<std::string> summary_of(const Report& report, const RenderTask& task
         lines.push_back(fmt::format("adaptive: {} to {} samples per pixel, {:.1f} on average",
                                     evidence.samples_per_pixel, evidence.most_samples_per_pixel.value_or(0),
                                     mean_samples(report)));
+    if (const auto& guide = report.guide; guide && guide->cells > 0)
+        lines.push_back(fmt::format("guide: learnt in {} of that, from {} photons in {} cells",
+                                    duration_text(guide->seconds), count_text(guide->arrived),
+                                    count_text(guide->cells)));
     if (const auto& noise = evidence.noise)
         lines.push_back(fmt::format("noise: rmse {}{:.3g} (95 % interval {:.3g} to {:.3g})",
                                     report.noise_is_bound ? "at most " : "", noise->rmse, noise->low,
@@ -269,6 +285,7 @@ std::string report_json(const Report& report)
     json.text("sampler", report.sampler);
     write_image(json, report);
     write_work(json, report);
+    write_guide(json, report.guide);
     write_left_out(json, report.evidence.left_out);
     write_evidence(json, report);
     json.boolean("black", report.is_black);

@@ -153,14 +153,14 @@ void check_agreement(const Setting& setting, bool absorb, std::uint64_t samples,
 TEST_CASE("all path tracers agree on small scenes of every kind", "[statistical][agreement]")
 {
     const std::vector<Setting> all = settings();
-    for (std::size_t i = 0; i < all.size(); ++i) check_agreement(all[i], i % 2 == 1, 10000, 9 * all.size());
+    for (std::size_t i = 0; i < all.size(); ++i) check_agreement(all[i], i % 2 == 1, 10000, 10 * all.size());
 }
 
 TEST_CASE("all path tracers agree within a fraction of a percent", "[statistical][agreement][slow]")
 {
     const std::vector<Setting> all = settings();
     for (const Setting& setting : all)
-        for (const bool absorb : {false, true}) check_agreement(setting, absorb, 50000, 18 * all.size());
+        for (const bool absorb : {false, true}) check_agreement(setting, absorb, 50000, 20 * all.size());
 }
 
 TEST_CASE("explicit solid-angle sampling agrees with the other measures", "[statistical][agreement]")
@@ -203,7 +203,7 @@ TEST_CASE("every bounce limit has the same mean in all path tracers", "[statisti
                     return same_mean_outcome(estimate(scene, *other, overview, n, seed),
                                              estimate(scene, *reference, overview, n, seed + 1000), 1e-5);
                 },
-                10000, sidak_level(significance, 9 * limits.size()));
+                10000, sidak_level(significance, 10 * limits.size()));
         }
     }
 }

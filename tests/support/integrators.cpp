@@ -2,6 +2,7 @@
 
 #include "support/integrators.h"
 
+#include "plumb/model/guide.h"
 #include "scene_file/catalog.h"
 
 #include <stdexcept>
@@ -26,6 +27,7 @@ std::unique_ptr<Integrator> make_integrator(const ParamsBuilder& params, const S
 {
     auto integrator = params.build_with(builder_of(params.type()));
     integrator->prepare(scene);
+    train(*integrator, scene, 1);
     return integrator;
 }
 
@@ -63,6 +65,7 @@ std::vector<NamedParams> path_tracers(int max_depth, bool with_area)
     add("path_mis", integrator_params("path_mis"));
     add("path_mis, balance",
         integrator_params("path_mis").string("heuristic", "balance").integer("rrDepth", 1));
+    add("path_mis without a guide", integrator_params("path_mis").boolean("guide", false));
     for (const std::string warp : warps) {
         add("implicit, " + warp, configured(false).string("indirect-warp", warp));
         add("explicit by hemisphere, " + warp, configured(true)

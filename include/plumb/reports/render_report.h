@@ -3,6 +3,7 @@
 
 // The report of a run that --json writes: what the header of an image does not say, times and machine included.
 
+#include "plumb/model/guide.h"
 #include "plumb/rendering/session.h"
 #include "plumb/scene/scene.h"
 
@@ -17,7 +18,7 @@ struct Report {
     Dialect dialect;
     std::string integrator;
     std::string sampler;
-    bool noise_is_bound = false; // for the sampler's samples are not independent
+    bool noise_is_bound = false;    // for the sampler's samples are not independent
     std::optional<double> adaptive; // RenderOptions::adaptive
     std::uint64_t seed = 0;
     Vec2i resolution;
@@ -25,7 +26,8 @@ struct Report {
     std::uint64_t triangles = 0;
     double parse_seconds = 0.0;
     double build_seconds = 0.0;
-    double render_seconds = 0.0;
+    double render_seconds = 0.0;     // those of training included
+    std::optional<GuideFacts> guide; // of the integrator
     double write_seconds = 0.0;
     double total_seconds = 0.0;
     RayCounts rays;

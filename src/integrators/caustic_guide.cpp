@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+
+#include "integrators/caustic_guide.h"
+
+#include "plumb/math/frame.h"
+#include "plumb/sampling/sampling.h"
+
+#include <cstring>
+
+namespace plumb {
+namespace {
+
+float one_minus_cos_of(float sine_squared)
+{
+    return sine_squared / (1.f + std::sqrt(1.f - sine_squared));
+}
+
+} // namespace
+
+void GuideCell::add(const Kernel& kernel)
+{
+    x_[count_] = kernel.source.x;
+    y_[count_] = kernel.source.y;
+    z_[count_] = kernel.source.z;
+    sine_squared_[count_] = kernel.sine_squared;
+    ++count_;
+}
+
+void GuideCell::complete()
+{
+    for (std::uint32_t i = 0; i < count_; ++i)
+        density_[i] = uniform_cone_pdf(one_minus_cos_of(sine_squared_[i])) / static_cast<float>(count_);
+}
+
+std::optional<GuidedDirection> GuideCell::sample(const Vec3f& from, float u_choice, const Vec2f& u) const
+{
+    const auto chosen = static_cast<std::size_t>(u_choice * static_cast<float>(count_));
+    const Vec3f towards = Vec3f(x_[chosen], y_[chosen], z_[chosen]) - from;
+    const float size = length(towards);
+    if (!(size > 0.f)) return std::nullopt;
+    const float one_minus_cos = one_minus_cos_of(sine_squared_[chosen]);
+    const Vec3f direction =
+        normalize(Frame(towards / size).to_world(square_to_uniform_cone(u, one_minus_cos)));
+    const float density = pdf(from, direction);
+    if (!(density > 0.f)) return std::nullopt;
+    return GuidedDirection{direction, density};
+}
+
+float GuideCell::pdf(const Vec3f& from, const Vec3f& direction) const
+{
+    // Inside a cone is where the cross product of direction and axis is short: exact where cones are narrow.
+    using Lanes [[gnu::vector_size(32)]] = float;
+    const auto lanes_of = [](const std::array<float, most_photons>& from, std::size_t first) {
+        Lanes lanes;
+        std::memcpy(&lanes, from.data() + first, sizeof lanes);
+        return lanes;
+    };
+    Lanes sums{};
+    for (std::size_t first = 0; first < most_photons; first += sizeof(Lanes) / sizeof(float)) {
+        const Lanes vx = lanes_of(x_, first) - from.x;
+        const Lanes vy = lanes_of(y_, first) - from.y;
+        const Lanes vz = lanes_of(z_, first) - from.z;
+        const Lanes cx = direction.y * vz - direction.z * vy;
+        const Lanes cy = direction.z * vx - direction.x * vz;
+        const Lanes cz = direction.x * vy - direction.y * vx;
+        const Lanes cosine = direction.x * vx + direction.y * vy + direction.z * vz;
+        const Lanes cross2 = cx * cx + cy * cy + cz * cz;
+        const Lanes size2 = vx * vx + vy * vy + vz * vz;
+        const auto inside = (cosine > 0.f) & (cross2 <= lanes_of(sine_squared_, first) * size2);
+        sums += inside ? lanes_of(density_, first) : Lanes{};
+    }
+    return ((sums[0] + sums[1]) + (sums[2] + sums[3])) + ((sums[4] + sums[5]) + (sums[6] + sums[7]));
+}
+
+const GuideCell* CausticGuide::cell_at(const Vec3f& position) const
+{
+    const Node* node = nodes_.data();
+    while (node->axis < 3) {
+        const float coordinate = node->axis == 0 ? position.x : node->axis == 1 ? position.y : position.z;
+        node = nodes_.data() + node->index + (coordinate < node->split ? 0 : 1);
+    }
+    const Leaf& leaf = leaves_[node->index];
+    return leaf.cell && leaf.reach.intersects(position) ? leaf.cell : nullptr;
+}
+
+} // namespace plumb

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+
+#include "integrators/caustic_guide.h"
+
+#include "base/float_mode.h"
+#include "base/parallel.h"
+#include "integrators/caustic_photons.h"
+
+#include <chrono>
+#include <numeric>
+
+namespace plumb {
+namespace {
+
+// A kernel reaches as far as this many other photons of its cell say that it must.
+constexpr std::size_t neighbours = 3;
+constexpr float narrowest = 0.005f; // sine of half a cone's angle
+constexpr float widest = 0.8f;
+constexpr std::size_t fewest_photons = 8; // of a cell that guides
+// By how much the second moment of what guided and unguided directions find together must be below that of the unguided alone.
+constexpr double least_gain = 2.0;
+
+using Indices = std::span<std::uint32_t>;
+
+Vec3f source_of(const CausticPhoton& photon, float distance)
+{
+    return photon.position + photon.towards * distance;
+}
+
+// Squared sine of the angle by which `source` misses the direction from which a photon came; 1 for opposite directions.
+float miss(const Vec3f& source, const CausticPhoton& photon)
+{
+    const Vec3f towards = source - photon.position;
+    const float size2 = length_squared(towards);
+    if (!(size2 > 0.f) || !(dot(towards, photon.towards) > 0.f)) return 1.f;
+    return length_squared(cross(towards, photon.towards)) / size2;
+}
+
+// What a photon would be as a kernel, were its light to come from that distance.
+GuideCell::Kernel kernel_at(float distance, std::size_t self, std::span<const CausticPhoton> photons)
+{
+    const Vec3f source = source_of(photons[self], distance);
+    std::array<float, neighbours> nearest;
+    nearest.fill(1.f);
+    for (std::size_t i = 0; i < photons.size(); ++i) {
+        if (i == self) continue;
+        float value = miss(source, photons[i]);
+        for (float& other : nearest)
+            if (value < other) std::swap(value, other);
+    }
+    return {source, nearest.back()};
+}
+
+GuideCell::Kernel kernel_of(std::size_t self, std::span<const CausticPhoton> photons)
+{
+    const GuideCell::Kernel near = kernel_at(photons[self].to_last, self, photons);
+    const GuideCell::Kernel far = kernel_at(photons[self].to_emitter, self, photons);
+    GuideCell::Kernel best = far.sine_squared < near.sine_squared ? far : near;
+    best.sine_squared = std::clamp(best.sine_squared, sqr(narrowest), sqr(widest));
+    return best;
+}
+
+// What a cell has, and what it does for its photons.
+struct Learnt {
+    GuideCell cell;
+    double gain = 0.0;
+};
+
+Learnt learn_cell(std::span<const CausticPhoton> photons)
+{
+    Learnt learnt;
+    std::vector<GuideCell::Kernel> kernels(photons.size());
+    for (std::size_t i = 0; i < photons.size(); ++i) kernels[i] = kernel_of(i, photons);
+    for (const GuideCell::Kernel& kernel : kernels) learnt.cell.add(kernel);
+    learnt.cell.complete();
+    // A photon stands for light times cosine, so that the second moment of f / p is a sum of cosine / p over photons. Each
+    // judges the kernels of the others; what is not guided is cosine / pi.
+    double guided = 0.0;
+    double unguided = 0.0;
+    for (std::size_t i = 0; i < photons.size(); ++i) {
+        GuideCell others;
+        for (std::size_t k = 0; k < photons.size(); ++k)
+            if (k != i) others.add(kernels[k]);
+        others.complete();
+        const double cosine = photons[i].cosine;
+        const double pdf = static_cast<double>(others.pdf(photons[i].position, photons[i].towards));
+        unguided += pi_d;
+        guided += cosine / (cosine / pi_d + pdf + 1e-6);
+    }
+    learnt.gain = unguided / guided;
+    return learnt;
+}
+
+} // namespace
+
+// Cuts space in halves of as many photons, as a k-d tree.
+class GuideBuilder {
+public:
+    explicit GuideBuilder(std::vector<CausticPhoton> photons) : photons_(std::move(photons)) {}
+
+    void build(CausticGuide& guide, int threads)
+    {
+        std::vector<std::uint32_t> order(photons_.size());
+        std::iota(order.begin(), order.end(), 0u);
+        guide.nodes_.emplace_back();
+        cut(guide, 0, order);
+        std::vector<Learnt> learnt(parts_.size());
+        parallel_for(parts_.size(), threads, [&](std::size_t i) {
+            const FlushDenormals flush;
+            if (parts_[i].size() >= fewest_photons) learnt[i] = learn_cell(parts_[i]);
+        });
+        guide.cells_ = std::make_unique<GuideCell[]>(parts_.size());
+        for (std::size_t i = 0; i < parts_.size(); ++i) {
+            guide.leaves_.push_back({reach_of(parts_[i]), nullptr});
+            if (!(learnt[i].gain >= least_gain)) continue;
+            guide.cells_[i] = learnt[i].cell;
+            guide.leaves_.back().cell = &guide.cells_[i];
+            ++guide.facts_.cells;
+        }
+    }
+
+private:
+    static Box3f reach_of(const std::vector<CausticPhoton>& photons)
+    {
+        Box3f box;
+        for (const CausticPhoton& photon : photons) box.extendBy(photon.position);
+        const Vec3f margin(0.5f * length(box.size()));
+        return photons.empty() ? box : Box3f(box.min - margin, box.max + margin);
+    }
+
+    void cut(CausticGuide& guide, std::size_t node, Indices photons)
+    {
+        if (photons.size() <= GuideCell::most_photons) {
+            std::sort(photons.begin(), photons.end());
+            guide.nodes_[node].index = static_cast<std::uint32_t>(parts_.size());
+            std::vector<CausticPhoton>& part = parts_.emplace_back();
+            for (const std::uint32_t i : photons) part.push_back(photons_[i]);
+            return;
+        }
+        Box3f box;
+        for (const std::uint32_t i : photons) box.extendBy(photons_[i].position);
+        const auto axis = box.majorAxis();
+        const auto before = [&](std::uint32_t a, std::uint32_t b) {
+            const float x = photons_[a].position[static_cast<int>(axis)];
+            const float y = photons_[b].position[static_cast<int>(axis)];
+            return x != y ? x < y : a < b;
+        };
+        const auto middle = photons.begin() + static_cast<std::ptrdiff_t>(photons.size() / 2);
+        std::nth_element(photons.begin(), middle, photons.end(), before);
+        const auto children = static_cast<std::uint32_t>(guide.nodes_.size());
+        guide.nodes_[node] = {photons_[*middle].position[static_cast<int>(axis)], axis, children};
+        guide.nodes_.resize(guide.nodes_.size() + 2);
+        const auto half = static_cast<std::size_t>(middle - photons.begin());
+        cut(guide, children, photons.first(half));
+        cut(guide, children + 1, photons.subspan(half));
+    }
+
+    std::vector<CausticPhoton> photons_;
+    std::vector<std::vector<CausticPhoton>> parts_; // of the leaves
+};
+
+CausticGuide CausticGuide::learn(const Scene& scene, int threads)
+{
+    const auto start = std::chrono::steady_clock::now();
+    CausticGuide guide;
+    CausticPhotons found = trace_caustic_photons(scene, threads);
+    guide.facts_.emitted = found.emitted;
+    guide.facts_.arrived = found.photons.size();
+    if (!found.photons.empty()) GuideBuilder(std::move(found.photons)).build(guide, threads);
+    guide.facts_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return guide;
+}
+
+} // namespace plumb

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The path tracer that looks for emitters in a third way: from surfaces that scatter, through chains of delta bounces, in directions
+// that a guide knows.
+//
+// Two techniques find such light: a direction of the BSDF and one of the guide, each with the chain that follows from it, and
+// chains choose among lobes alike, so the densities of the two directions decide their weights (Veach 1997, section 9.2).
+// What emitter samples find is left to them, and so is what lies behind more than `longest_chain` delta bounces to the BSDF.
+
+#include "integrators/caustic_guide.h"
+#include "integrators/path_estimator.h"
+
+namespace plumb {
+
+struct GuidedPathState : PathState {
+    using PathState::PathState;
+
+    void extend(const Vertex& vertex, const BsdfSample& next)
+    {
+        PathState::extend(vertex, next);
+        if (next.is_delta()) {
+            ++chain;
+            return;
+        }
+        chain = 0;
+        cell = cell_here;
+        pdf_of_direction = next.pdf;
+        position = vertex.at().position;
+        direction = vertex.to_world(next);
+    }
+
+    const GuideCell* cell_here = nullptr; // of the vertex that is being looked at
+    // Of the last vertex whose direction was not delta.
+    const GuideCell* cell = nullptr;
+    Vec3f position{0.f};
+    Vec3f direction{0.f}; // in world space
+    float pdf_of_direction = 0.f;
+    int chain = 0; // delta bounces since then
+};
+
+class GuidedPath : public PathEstimator {
+public:
+    using State = GuidedPathState;
+
+    // The guide must live as long.
+    GuidedPath(const PathEstimator& estimator, const CausticGuide& guide)
+        : PathEstimator(estimator), guide_(&guide)
+    {}
+
+    Color radiance(Tracer& tracer, Sampler& sampler, const Ray& ray) const;
+
+    // Asked by path_loop.h beside what it asks of every technique.
+    float chain_weight(const GuidedPathState& path) const;
+    // The sum so far, and what guided chains from this vertex add to it. bounces: before the vertex.
+    Color with_chains(Tracer& tracer, Sampler& sampler, GuidedPathState& path, const Vertex& vertex,
+                      int bounces, const Color& sum) const;
+
+private:
+    struct Chain {
+        Ray ray; // its next one
+        Color throughput;
+        LightReceiver receiver;
+        int depth; // surface bounces so far
+    };
+    // The sum so far, and the light that the chain meets.
+    Color follow(Tracer& tracer, Sampler& sampler, Chain chain, Color sum) const;
+
+    const CausticGuide* guide_;
+};
+
+} // namespace plumb

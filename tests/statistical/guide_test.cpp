@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: MIT
+
+// Guided directions: their density, closed forms of what they find, and where there is a guide at all.
+
+#include "integrators/caustic_guide.h"
+#include "integrators/caustic_photons.h"
+#include "plumb/model/guide.h"
+#include "plumb/sampling/sampling.h"
+#include "support/catch.h"
+#include "support/integrators.h"
+#include "support/placed_lamp.h"
+
+#include <cstring>
+
+namespace plumb {
+class ThinDielectric;
+} // namespace plumb
+
+using namespace plumb;
+using namespace plumb::test;
+
+namespace {
+
+constexpr float lamp_radiance = 30.f;
+constexpr float floor_albedo = 0.5f;
+
+// A floor, a ball of glass and one that mirrors, and a lamp above.
+LittleScene balls()
+{
+    LittleScene scene;
+    scene.rectangle(Vec3f(0.f), 6.f, 6.f, Vec3f(0, 1, 0), diffuse(floor_albedo));
+    scene.sphere(Vec3f(-0.6f, 0.6f, 0.f), 0.5f, glass());
+    scene.sphere(Vec3f(0.7f, 0.5f, 0.2f), 0.5f, mirror());
+    scene.rectangle(Vec3f(0.3f, 3.f, 0.3f), 0.6f, 0.4f, Vec3f(0, -1, 0), diffuse(0.f), Color(lamp_radiance));
+    return scene;
+}
+
+// Of a floor under a lamp that shines upwards, into a mirror at y = 2: it is lit by what seems a lamp at y = 3.
+const Vec3f floor_point(0.1f, 0.f, -0.2f);
+Scene mirrored_lamp()
+{
+    LittleScene scene;
+    scene.rectangle(Vec3f(0.f), 6.f, 6.f, Vec3f(0, 1, 0), diffuse(floor_albedo));
+    scene.rectangle(Vec3f(0.f, 2.f, 0.f), 6.f, 6.f, Vec3f(0, -1, 0), mirror());
+    scene.rectangle(Vec3f(0.8f, 1.f, 0.3f), 0.2f, 0.3f, Vec3f(0, 1, 0), diffuse(0.f), Color(lamp_radiance));
+    return scene.build();
+}
+
+// 1 - R of a thin pane, whose faces reflect r each: R = 2 r / (1 + r), of index 1.5.
+double pane_transmittance(double cos_i)
+{
+    const double eta = 1.5;
+    const double cos_t = std::sqrt(1.0 - (1.0 - cos_i * cos_i) / (eta * eta));
+    const double s = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
+    const double p = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
+    const double r = 0.5 * (s * s + p * p);
+    return 1.0 - 2.0 * r / (1.0 + r);
+}
+
+// A floor under a pane at y = 1 and a lamp at y = 2, 0.3 by 0.2 about (0.5, 2, 0.2), that shines down.
+Scene lamp_behind_pane()
+{
+    const MakeBsdf pane = [] {
+        return ParamsBuilder("bsdf", "thindielectric").number("intIOR", 1.5).build<ThinDielectric, Bsdf>();
+    };
+    LittleScene scene;
+    scene.rectangle(Vec3f(0.f), 6.f, 6.f, Vec3f(0, 1, 0), diffuse(floor_albedo));
+    scene.rectangle(Vec3f(0.f, 1.f, 0.f), 6.f, 6.f, Vec3f(0, 1, 0), pane);
+    scene.rectangle(Vec3f(0.5f, 2.f, 0.2f), 0.3f, 0.2f, Vec3f(0, -1, 0), diffuse(0.f), Color(lamp_radiance));
+    return scene.build();
+}
+
+double light_behind_pane()
+{
+    const double height = 2.0;
+    const double irradiance = integrate(
+        [&](double x, double z) {
+            const double distance2 = sqr(x - floor_point.x) + sqr(z - floor_point.z) + sqr(height);
+            const double cosine = height / std::sqrt(distance2);
+            return lamp_radiance * pane_transmittance(cosine) * sqr(cosine) / distance2;
+        },
+        0.35, 0.65, 0.1, 0.3);
+    return irradiance * floor_albedo / pi_d;
+}
+
+ParamsBuilder two_bounces(bool guided)
+{
+    return integrator_params("path_mis").integer("maxDepth", 2).boolean("guide", guided);
+}
+
+const ChooseRay at_the_floor = ray_to(Vec3f(0.1f, 0.5f, -0.2f), floor_point);
+
+MeanAndVariance light_at_the_floor(const Scene& scene, bool guided, std::uint64_t samples, std::uint64_t seed)
+{
+    return estimate(scene, *make_integrator(two_bounces(guided), scene), at_the_floor, samples, seed);
+}
+
+bool same_bits(float a, float b)
+{
+    return std::memcmp(&a, &b, sizeof a) == 0;
+}
+
+} // namespace
+
+TEST_CASE("guided directions follow their density", "[statistical][guide]")
+{
+    const Scene scene = balls().build();
+    const CausticGuide guide = CausticGuide::learn(scene, 0);
+    REQUIRE(guide.is_on());
+    // Where the ball focuses the lamp, near the mirror, and on the lamp's side of a ball.
+    const std::vector<Vec3f> points{
+        {-0.75f, 0.f, -0.1f}, {0.75f, 0.f, 0.9f}, {-0.6f, 0.f, -0.05f}, {1.6f, 0.f, 0.3f}};
+    int guided = 0;
+    for (const Vec3f& point : points) {
+        const GuideCell* const cell = guide.cell_at(point);
+        if (!cell) continue;
+        ++guided;
+        const auto sample = [&](TestRandom& random) -> std::optional<Vec3f> {
+            const float u_choice = random.next_1d();
+            const auto chosen = cell->sample(point, u_choice, random.next_2d());
+            return chosen ? std::optional(chosen->direction) : std::nullopt;
+        };
+        TestRandom random(1);
+        SphereGrid grid;
+        grid.axis = *sample(random);
+        grid.concentration = 4.0;
+        check_distribution(
+            "from a floor", grid, sample, [&](const Vec3f& w) { return cell->pdf(point, w); }, 100'000,
+            sidak_level(significance, points.size()));
+        const auto again = cell->sample(point, 0.3f, Vec2f(0.2f, 0.7f));
+        REQUIRE(again);
+        CHECK(same_bits(again->pdf, cell->pdf(point, again->direction)));
+    }
+    CHECK(guided >= 3);
+}
+
+TEST_CASE("light from a lamp that a floor sees in a mirror has its closed form, with and without a guide",
+          "[statistical][guide]")
+{
+    const Scene scene = mirrored_lamp();
+    REQUIRE(CausticGuide::learn(scene, 0).is_on());
+    const PlacedLamp image{
+        LampKind::rectangle,
+        0.3,
+        Vec3f(0.8f, 3.f, 0.3f),
+        Vec3d(0, -1, 0),
+        {Vec3f(0.7f, 3.f, 0.15f), Vec3f(0.9f, 3.f, 0.15f), Vec3f(0.9f, 3.f, 0.45f), Vec3f(0.7f, 3.f, 0.45f)}};
+    const double expected = static_cast<double>(lamp_radiance * floor_albedo) *
+                            form_factor(image, Vec3d(floor_point), Vec3d(0, 1, 0));
+    for (const bool guided : {true, false})
+        check_mean(
+            guided ? "guided" : "not guided", expected,
+            [&](std::uint64_t n, std::uint64_t seed) { return light_at_the_floor(scene, guided, n, seed); },
+            guided ? 20'000 : 200'000, sidak_level(significance, 2));
+}
+
+TEST_CASE("light from a lamp behind a pane has its integral, with and without a guide",
+          "[statistical][guide]")
+{
+    const Scene scene = lamp_behind_pane();
+    REQUIRE(CausticGuide::learn(scene, 0).is_on());
+    for (const bool guided : {true, false})
+        check_mean(
+            guided ? "guided" : "not guided", light_behind_pane(),
+            [&](std::uint64_t n, std::uint64_t seed) { return light_at_the_floor(scene, guided, n, seed); },
+            guided ? 20'000 : 200'000, sidak_level(significance, 2));
+}
+
+TEST_CASE("a guide makes caustics less noisy", "[statistical][guide]")
+{
+    // 20 samples in the place of one, at least; where the pane lets all light through it is about a hundred.
+    for (const auto& make_scene : {mirrored_lamp, lamp_behind_pane}) {
+        const Scene scene = make_scene();
+        const double guided = light_at_the_floor(scene, true, 20'000, 1).variance();
+        const double unguided = light_at_the_floor(scene, false, 200'000, 1).variance();
+        CHECK(guided < 0.05 * unguided);
+    }
+}
+
+TEST_CASE("a guide is a function of the scene, whatever the threads", "[statistical][guide]")
+{
+    const Scene scene = balls().build();
+    const Scene same = balls().build();
+    const CausticGuide one = CausticGuide::learn(scene, 1), many = CausticGuide::learn(same, 3);
+    CHECK(one.facts().arrived == many.facts().arrived);
+    CHECK(one.facts().cells == many.facts().cells);
+    TestRandom random(4);
+    int guided = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const Vec3f point(static_cast<float>(random.between(-2, 2)), 0.f,
+                          static_cast<float>(random.between(-2, 2)));
+        const GuideCell* const a = one.cell_at(point);
+        const GuideCell* const b = many.cell_at(point);
+        REQUIRE((a == nullptr) == (b == nullptr));
+        if (!a) continue;
+        ++guided;
+        const float u_choice = random.next_1d();
+        const Vec2f u = random.next_2d();
+        const auto from_a = a->sample(point, u_choice, u), from_b = b->sample(point, u_choice, u);
+        REQUIRE(from_a.has_value() == from_b.has_value());
+        if (!from_a) continue;
+        REQUIRE(same_bits(from_a->pdf, from_b->pdf));
+        REQUIRE(from_a->direction == from_b->direction);
+    }
+    CHECK(guided > 200);
+}
+
+TEST_CASE("there is no guide where there is nothing to guide", "[statistical][guide]")
+{
+    const auto facts = [](LittleScene& little, const ParamsBuilder& params) {
+        const Scene scene = little.build();
+        return guide_of(*make_integrator(params, scene));
+    };
+    const auto path_mis = [] { return integrator_params("path_mis"); };
+    LittleScene lit = balls();
+    const auto found = facts(lit, path_mis());
+    REQUIRE(found);
+    CHECK(found->cells > 0);
+    CHECK(found->arrived > 1000);
+    CHECK(found->emitted >= found->arrived);
+
+    LittleScene off = balls(), direct = balls();
+    CHECK_FALSE(facts(off, path_mis().boolean("guide", false)));
+    CHECK_FALSE(facts(direct, path_mis().integer("maxDepth", 1)));
+    LittleScene rough;
+    rough.room(diffuse(0.5f)).sphere(Vec3f(0.f), 0.2f, diffuse(0.5f), Color(1.f));
+    CHECK_FALSE(facts(rough, path_mis()));
+    // No path meets a point.
+    LittleScene point;
+    point.room(diffuse(0.5f)).sphere(Vec3f(0.f), 0.2f, glass()).point_light(Vec3f(0.5f), Color(1.f));
+    CHECK_FALSE(facts(point, path_mis()));
+    // A mirror that no lamp sees.
+    LittleScene hidden;
+    hidden.room(diffuse(0.5f)).sphere(Vec3f(0.f), 0.2f, diffuse(0.5f), Color(1.f));
+    hidden.sphere(Vec3f(3.f, 0.f, 0.f), 0.5f, mirror());
+    const auto nothing = facts(hidden, path_mis());
+    REQUIRE(nothing);
+    CHECK(nothing->arrived == 0);
+    CHECK(nothing->cells == 0);
+}
