@@ -50,9 +50,9 @@ float GuideCell::pdf(const Vec3f& from, const Vec3f& direction) const
 {
     // Inside a cone is where the cross product of direction and axis is short: exact where cones are narrow.
     using Lanes [[gnu::vector_size(32)]] = float;
-    const auto lanes_of = [](const std::array<float, most_photons>& from, std::size_t first) {
+    const auto lanes_of = [](const std::array<float, most_photons>& all, std::size_t first) {
         Lanes lanes;
-        std::memcpy(&lanes, from.data() + first, sizeof lanes);
+        std::memcpy(&lanes, all.data() + first, sizeof lanes);
         return lanes;
     };
     Lanes sums{};

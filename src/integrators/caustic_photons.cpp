@@ -163,7 +163,7 @@ private:
         at.bsdf = lamp.object->bsdf.get();
         at.emitter = lamp.emitter;
         const Color radiance =
-            lamp.emitter->evaluate(point.position + direction, -direction, &at, Measure::area).radiance;
+            lamp.emitter->evaluate({point.position + direction}, -direction, &at, Measure::area).radiance;
         const float mean = lamp.emitter->power() / (pi * lamp.object->shape->area());
         if (!(u_count * mean < cosine * luminance(radiance))) return std::nullopt;
         return Emission{at.spawn_ray(direction), 0.f};
