@@ -12,9 +12,10 @@ using namespace plumb;
 
 namespace {
 
+// By an integrator that finds the lamp now and then, so that pixels differ.
 RunResult run_with(const SceneDirectory& directory, const Names& words)
 {
-    Names all = {"scene.xml", "--size", "16x12", "--sampler", "sobol"};
+    Names all = {"scene.xml", "--size", "16x12", "--integrator", "path_mats"};
     all.insert(all.end(), words.begin(), words.end());
     return directory.run(all);
 }
@@ -63,7 +64,7 @@ TEST_CASE("a pixel of an adaptive image is that of a plain one with as many samp
                 REQUIRE(value(image, channel, x, y) == value(plain.at(samples), channel, x, y));
         }
     }
-    CHECK(plain.size() >= 3);
+    CHECK(plain.size() >= 2);
     for (const auto& [samples, unused] : plain) CHECK((samples & (samples - 1)) == 0);
     const ImageHeader found = header(directory / "a.exr");
     CHECK(text(found, "plumb:adaptive") == "0.1");
@@ -149,11 +150,11 @@ TEST_CASE("what does not go with --adaptive", "[cli][adaptive]")
     CHECK(usage({"--adaptive", "0"}) == "error: --adaptive must be a number from 0.0001 to 1, not '0'\n");
 
     const auto refusal = [&](const Names& words) {
-        const RunResult result = run_with(directory, with({"--quiet"}, words));
+        const RunResult result = run_with(directory, with({"--quiet", "-o", "x.exr"}, words));
         CHECK(result.exit_code == 1);
         return result.err;
     };
-    CHECK(refusal({"--adaptive", "0.1", "--sampler", "stratified", "-o", "x.exr"}) ==
+    CHECK(refusal({"--adaptive", "0.1", "--sampler", "stratified"}) ==
           "error: the sampler 'stratified' depends on the total number of samples per pixel: with "
           "--adaptive, use --sampler sobol\n");
 
@@ -161,7 +162,7 @@ TEST_CASE("what does not go with --adaptive", "[cli][adaptive]")
         for (const char* file : {"c.exr", "c.previous.exr", "p.exr", "q.exr", "p.previous.exr"})
             std::filesystem::remove(directory / file);
         render(directory, with(first, {"--spp", "32", "-o", "a.exr", "--checkpoint", "c.exr"}));
-        CHECK(refusal(with(second, {"--spp", "32", "-o", "b.exr", "--checkpoint", "c.exr", "--resume"})) ==
+        CHECK(refusal(with(second, {"--spp", "32", "--checkpoint", "c.exr", "--resume"})) ==
               "error: cannot resume from 'c.exr': " + change + "\n");
         render(directory, with(first, {"--spp", "32", "--part", "1/2", "-o", "p.exr"}));
         render(directory, with(second, {"--spp", "32", "--part", "2/2", "-o", "q.exr"}));
