@@ -26,8 +26,9 @@ void GuideCell::add(const Kernel& kernel)
     ++count_;
 }
 
-void GuideCell::complete()
+void GuideCell::complete(float strength)
 {
+    strength_ = strength;
     for (std::uint32_t i = 0; i < count_; ++i)
         density_[i] = uniform_cone_pdf(one_minus_cos_of(sine_squared_[i])) / static_cast<float>(count_);
 }
@@ -50,9 +51,9 @@ float GuideCell::pdf(const Vec3f& from, const Vec3f& direction) const
 {
     // Inside a cone is where the cross product of direction and axis is short: exact where cones are narrow.
     using Lanes [[gnu::vector_size(32)]] = float;
-    const auto lanes_of = [](const std::array<float, most_photons>& from, std::size_t first) {
+    const auto lanes_of = [](const std::array<float, most_photons>& numbers, std::size_t first) {
         Lanes lanes;
-        std::memcpy(&lanes, from.data() + first, sizeof lanes);
+        std::memcpy(&lanes, numbers.data() + first, sizeof lanes);
         return lanes;
     };
     Lanes sums{};

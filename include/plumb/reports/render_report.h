@@ -25,7 +25,7 @@ struct Report {
     std::uint64_t triangles = 0;
     double parse_seconds = 0.0;
     double build_seconds = 0.0;
-    double render_seconds = 0.0; // those of training included
+    double render_seconds = 0.0;     // those of training included
     std::optional<GuideFacts> guide; // of the integrator
     double write_seconds = 0.0;
     double total_seconds = 0.0;
