@@ -5,8 +5,6 @@
 #include "plumb/math/frame.h"
 #include "plumb/sampling/sampling.h"
 
-#include <cstring>
-
 namespace plumb {
 namespace {
 
@@ -26,8 +24,9 @@ void GuideCell::add(const Kernel& kernel)
     ++count_;
 }
 
-void GuideCell::complete()
+void GuideCell::complete(float strength)
 {
+    strength_ = strength;
     for (std::uint32_t i = 0; i < count_; ++i)
         density_[i] = uniform_cone_pdf(one_minus_cos_of(sine_squared_[i])) / static_cast<float>(count_);
 }
@@ -49,25 +48,26 @@ std::optional<GuidedDirection> GuideCell::sample(const Vec3f& from, float u_choi
 float GuideCell::pdf(const Vec3f& from, const Vec3f& direction) const
 {
     // Inside a cone is where the cross product of direction and axis is short: exact where cones are narrow.
-    using Lanes [[gnu::vector_size(32)]] = float;
-    const auto lanes_of = [](const std::array<float, most_photons>& all, std::size_t first) {
-        Lanes lanes;
-        std::memcpy(&lanes, all.data() + first, sizeof lanes);
-        return lanes;
-    };
+    using Lanes [[gnu::vector_size(32), gnu::may_alias]] = float;
+    constexpr std::size_t blocks = most_photons / (sizeof(Lanes) / sizeof(float));
+    const auto* const x = reinterpret_cast<const Lanes*>(x_.data()); // aligned
+    const auto* const y = reinterpret_cast<const Lanes*>(y_.data());
+    const auto* const z = reinterpret_cast<const Lanes*>(z_.data());
+    const auto* const sine_squared = reinterpret_cast<const Lanes*>(sine_squared_.data());
+    const auto* const density = reinterpret_cast<const Lanes*>(density_.data());
     Lanes sums{};
-    for (std::size_t first = 0; first < most_photons; first += sizeof(Lanes) / sizeof(float)) {
-        const Lanes vx = lanes_of(x_, first) - from.x;
-        const Lanes vy = lanes_of(y_, first) - from.y;
-        const Lanes vz = lanes_of(z_, first) - from.z;
+    for (std::size_t k = 0; k < blocks; ++k) {
+        const Lanes vx = x[k] - from.x;
+        const Lanes vy = y[k] - from.y;
+        const Lanes vz = z[k] - from.z;
         const Lanes cx = direction.y * vz - direction.z * vy;
         const Lanes cy = direction.z * vx - direction.x * vz;
         const Lanes cz = direction.x * vy - direction.y * vx;
         const Lanes cosine = direction.x * vx + direction.y * vy + direction.z * vz;
         const Lanes cross2 = cx * cx + cy * cy + cz * cz;
         const Lanes size2 = vx * vx + vy * vy + vz * vz;
-        const auto inside = (cosine > 0.f) & (cross2 <= lanes_of(sine_squared_, first) * size2);
-        sums += inside ? lanes_of(density_, first) : Lanes{};
+        const auto inside = (cosine > 0.f) & (cross2 <= sine_squared[k] * size2);
+        sums += inside ? density[k] : Lanes{};
     }
     return ((sums[0] + sums[1]) + (sums[2] + sums[3])) + ((sums[4] + sums[5]) + (sums[6] + sums[7]));
 }

@@ -34,6 +34,8 @@ public:
 
     // From a point, in world space. u_choice chooses the kernel, u the direction in it. Nothing where rounding has lost it.
     std::optional<GuidedDirection> sample(const Vec3f& from, float u_choice, const Vec2f& u) const;
+    // How often a guided direction is worth its rays, as a chance: where more light arrives.
+    float strength() const { return strength_; }
     // The density of sample(from), of a unit vector.
     float pdf(const Vec3f& from, const Vec3f& direction) const;
 
@@ -42,13 +44,15 @@ public:
         float sine_squared; // of half the cone's angle, which is below 90 degrees
     };
     void add(const Kernel& kernel); // most_photons at most
-    void complete();                // when all are added
+    // When all are added. strength: as strength() says.
+    void complete(float strength = 1.f);
 
 private:
     alignas(32) std::array<float, most_photons> x_{}, y_{}, z_{}; // of the sources
     alignas(32) std::array<float, most_photons> sine_squared_{};
     alignas(32) std::array<float, most_photons> density_{}; // in the cone, of all kernels' mean
     std::uint32_t count_ = 0;
+    float strength_ = 1.f;
 };
 
 class CausticGuide {

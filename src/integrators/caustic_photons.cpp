@@ -15,6 +15,9 @@ namespace {
 
 constexpr std::size_t photons_of_a_part = 1024;
 constexpr std::size_t parts = 128;
+// If fewer photons of the first parts arrive, there is nothing to learn, and no more are emitted.
+constexpr std::size_t first_parts = 16;
+constexpr std::size_t fewest_of_first_parts = 32;
 constexpr std::uint64_t photon_key = 0x63617573746963; // "caustic"
 constexpr int most_surfaces = 64;                      // passes through null lobes included
 constexpr std::size_t most_targets = 64;
@@ -243,15 +246,19 @@ CausticPhotons trace_caustic_photons(const Scene& scene, int threads)
     const PhotonSource source(scene);
     CausticPhotons found;
     if (!source.can_emit()) return found;
-    std::vector<std::vector<CausticPhoton>> of_parts(parts);
-    parallel_for(parts, threads, [&](std::size_t part) {
-        const FlushDenormals flush;
-        for (std::size_t i = 0; i < photons_of_a_part; ++i)
-            trace_photon(scene, source, part * photons_of_a_part + i, of_parts[part]);
-    });
-    found.emitted = parts * photons_of_a_part;
-    for (const std::vector<CausticPhoton>& photons : of_parts)
-        found.photons.insert(found.photons.end(), photons.begin(), photons.end());
+    const auto emit = [&](std::size_t first, std::size_t end) {
+        std::vector<std::vector<CausticPhoton>> of_parts(end - first);
+        parallel_for(of_parts.size(), threads, [&](std::size_t part) {
+            const FlushDenormals flush;
+            for (std::size_t i = 0; i < photons_of_a_part; ++i)
+                trace_photon(scene, source, (first + part) * photons_of_a_part + i, of_parts[part]);
+        });
+        found.emitted = end * photons_of_a_part;
+        for (const std::vector<CausticPhoton>& photons : of_parts)
+            found.photons.insert(found.photons.end(), photons.begin(), photons.end());
+    };
+    emit(0, first_parts);
+    if (found.photons.size() >= fewest_of_first_parts) emit(first_parts, parts);
     return found;
 }
 

@@ -18,7 +18,8 @@ Color GuidedPath::radiance(Tracer& tracer, Sampler& sampler, const Ray& ray) con
 float GuidedPath::chain_weight(const GuidedPathState& path) const
 {
     if (!path.cell || path.chain > longest_chain) return 1.f;
-    return mis_weight(heuristic(), path.pdf_of_direction, path.cell->pdf(path.position, path.direction));
+    return mis_weight(heuristic(), path.pdf_of_direction,
+                      path.chance * path.cell->pdf(path.position, path.direction));
 }
 
 // What a chain finds is counted where it meets it.
@@ -28,8 +29,12 @@ Color GuidedPath::with_chains(Tracer& tracer, Sampler& sampler, GuidedPathState&
     path.cell_here = vertex.has_smooth_lobes() ? guide_->cell_at(vertex.at().position) : nullptr;
     if (!path.cell_here || max_depth() - bounces == 1)
         return before; // light sampling finds what is one bounce away
-    const float u_choice = sampler.next_1d();
+    path.chance_here =
+        std::min(1.f, max_component(path.throughput) * path.eta_scale * path.cell_here->strength());
+    const float u_chance = sampler.next_1d();
     const Vec2f u_direction = sampler.next_2d();
+    if (!(u_chance < path.chance_here)) return before;
+    const float u_choice = std::min(u_chance / path.chance_here, one_minus_epsilon); // uniform again
     const auto guided = path.cell_here->sample(vertex.at().position, u_choice, u_direction);
     if (!guided) return before;
     const BsdfValue value = vertex.evaluate(guided->direction);
@@ -37,9 +42,10 @@ Color GuidedPath::with_chains(Tracer& tracer, Sampler& sampler, GuidedPathState&
     if (tracer.logging())
         tracer.log(PathEvent::Kind::direct,
                    fmt::format("a guided direction: pdf {:.6g}, of the BSDF {:.6g}", guided->pdf, value.pdf));
-    const float weight = mis_weight(heuristic(), guided->pdf, value.pdf); // [1]
+    const float density = path.chance_here * guided->pdf;
+    const float weight = mis_weight(heuristic(), density, value.pdf); // [1]
     const Chain chain{vertex.at().spawn_ray(guided->direction),
-                      path.throughput * value.f_cos * (weight / guided->pdf), vertex.receiver(), bounces + 1};
+                      path.throughput * value.f_cos * (weight / density), vertex.receiver(), bounces + 1};
     return follow(tracer, sampler, chain, before);
 }
 

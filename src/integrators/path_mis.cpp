@@ -16,6 +16,11 @@ namespace plumb {
 /// only one of them can find (point lights; what is seen after a delta bounce) has weight 1. The integrator to
 /// use when in doubt.
 ///
+/// Caustics, which light reaches through mirrors and glass, are found in a third way. Before the first sample, photons from
+/// emitters that have a size follow delta bounces to the first surface that scatters; they depend on the scene alone. Where they arrive,
+/// a surface also looks into directions that they came from, weighted by multiple importance sampling like the
+/// others: the image converges to the same with and without. Where nothing is learnt, nothing changes.
+///
 ///     maxDepth    integer   surface bounces: 0 shows emitters only, 1 direct light, -1 everything   (default -1)
 ///     rrDepth     integer   bounces before Russian roulette starts   (default 3)
 ///     countPasses   boolean   whether passing straight through a mask costs a bounce, of shadow rays as well   (default false)
@@ -24,7 +29,7 @@ namespace plumb {
 ///     heuristic   string    how the two share: power or balance   (default power)
 ///     candidates  integer   emitter samples at the first glossy surface of a path; one of them is followed, chosen by what it
 ///                           would add if nothing were in the way   (default 4)
-///     guide       boolean   whether surfaces that scatter also look for lamps behind mirrors and glass   (default true)
+///     guide       boolean   whether there is the third way   (default true)
 ///
 ///         <integrator type="path_mis">
 ///             <string name="heuristic" value="balance"/>

@@ -5,6 +5,7 @@
 // it the same cases are drawn again.
 
 #include "base/temporary_file.h"
+#include "plumb/model/guide.h"
 #include "plumb/render/state_file.h"
 #include "support/catch.h"
 #include "support/random.h"
@@ -132,11 +133,17 @@ void check_law(int cases)
     INFO("PLUMB_TEST_SEED=" << seed);
     TestRandom random(seed);
     const TempDirectory directory;
-    std::vector<LoadedScene> loaded;
-    for (const std::string& scene : scenes) loaded.push_back(test::load_text(scene));
+    // Whole images and parts by integrators of their own, each of which learns where caustics are.
+    std::vector<LoadedScene> loaded, of_parts;
+    for (const std::string& scene : scenes) {
+        loaded.push_back(test::load_text(scene));
+        of_parts.push_back(test::load_text(scene));
+    }
+    CHECK(train(*loaded[0].job.integrator, *loaded[0].job.scene, 3).value().cells > 0);
     for (int i = 0; i < cases; ++i) {
         INFO("case " << i);
-        const RenderJob& job = loaded[static_cast<std::size_t>(below(random, std::size(scenes)))].job;
+        const auto chosen = static_cast<std::size_t>(below(random, std::size(scenes)));
+        const RenderJob& job = loaded[chosen].job;
         RenderOptions options;
         options.seed = random.next_bits();
         options.samples_per_pixel = static_cast<std::uint64_t>(1 + below(random, 20));
@@ -157,7 +164,7 @@ void check_law(int cases)
         std::vector<RenderState> parts;
         for (std::uint64_t part = 0; part < count; ++part)
             parts.push_back(
-                take(job, options,
+                take(of_parts[chosen].job, options,
                      part_of(render_window(job, options), options.samples_per_pixel, by, part, count), random,
                      directory));
         REQUIRE(same_bits(merge(std::move(parts), random), expected));
