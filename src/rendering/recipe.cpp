@@ -22,7 +22,8 @@ SampleSet samples_of(const Recipe& recipe, const PixelRect& window)
     const auto is_taken = [&](const auto& entry) { return entry.first == name; };
     // Where they are said, the smallest number of a pixel may be 0.
     if (std::none_of(recipe.header.begin(), recipe.header.end(), is_taken)) {
-        if (const auto per_pixel = header_samples(recipe.header, "plumb:samplesPerPixel", image)) return SampleSet(SampleBlock{window, 0, *per_pixel});
+        if (const auto per_pixel = header_samples(recipe.header, "plumb:samplesPerPixel", image))
+            return SampleSet(SampleBlock{window, 0, *per_pixel});
         throw Error(fmt::format("the header of '{}' does not say which samples it has", image));
     }
     const auto samples = SampleSet::from_text(header_text(recipe.header, name));

@@ -50,7 +50,7 @@ struct Evidence {
     LeftOut left_out;
     std::uint64_t samples_per_pixel = 0; // the smallest number that a pixel has
     SampleSet taken;
-    bool even = true; // every pixel has the samples from 0 to before that number, and no others
+    bool even = true;          // every pixel has the samples from 0 to before that number, and no others
     std::uint64_t samples = 0; // of all pixels, those left out included
     // Of an adaptive rendering: the largest number that a pixel has. samples_per_pixel is the smallest, and `taken` are the
     // samples that are settled (RenderState::taken).

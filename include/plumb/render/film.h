@@ -48,7 +48,8 @@ class Film {
 public:
     // window: the pixels kept, of an image of full_width x full_height. Throws Error if memory is short or if there are more
     // than max_layers.
-    Film(PixelRect window, int full_width, int full_height, ChannelSet layers = {}, Plans plans = Plans::none);
+    Film(PixelRect window, int full_width, int full_height, ChannelSet layers = {},
+         Plans plans = Plans::none);
     Film(Film&&) noexcept;
     Film& operator=(Film&&) noexcept;
     ~Film();

@@ -17,7 +17,7 @@ struct Report {
     Dialect dialect;
     std::string integrator;
     std::string sampler;
-    bool noise_is_bound = false; // for the sampler's samples are not independent
+    bool noise_is_bound = false;    // for the sampler's samples are not independent
     std::optional<double> adaptive; // RenderOptions::adaptive
     std::uint64_t seed = 0;
     Vec2i resolution;
