@@ -5,6 +5,9 @@
 #include "integrators/guided_path.h"
 
 #include "integrators/caustic_photons.h"
+#include "samplers/hashed.h"
+
+#include <algorithm>
 
 #include <fmt/format.h>
 
@@ -22,64 +25,84 @@ float GuidedPath::chain_weight(const GuidedPathState& path) const
                       path.chance * path.cell->pdf(path.position, path.direction));
 }
 
-// What a chain finds is counted where it meets it.
-Color GuidedPath::with_chains(Tracer& tracer, Sampler& sampler, GuidedPathState& path, const Vertex& vertex,
-                              int bounces, const Color& before) const
+Color GuidedPath::with_waiting(Tracer& tracer, GuidedPathState& path, int depth, Color sum) const
 {
+    if (path.waiting.empty()) return sum;
+    std::stable_sort(path.waiting.begin(), path.waiting.end(),
+                     [](const auto& a, const auto& b) { return a.depth < b.depth; });
+    auto next = path.waiting.begin();
+    for (; next != path.waiting.end() && next->depth <= depth; ++next) {
+        sum += next->contribution;
+        if (tracer.light_notes()) [[unlikely]]
+            tracer.light_notes()->add({sum, FoundBy::direction, next->emitter, next->depth});
+    }
+    path.waiting.erase(path.waiting.begin(), next);
+    return sum;
+}
+
+void GuidedPath::find_chains(Tracer& tracer, Sampler& sampler, GuidedPathState& path, const Vertex& vertex,
+                             int bounces) const
+{
+    // As many numbers are drawn whatever the chain does, and the rest of the path draws what it would draw without a guide.
+    path.u_survival = sampler.next_1d();
     path.cell_here = vertex.has_smooth_lobes() ? guide_->cell_at(vertex.at().position) : nullptr;
-    if (!path.cell_here || max_depth() - bounces == 1)
-        return before; // light sampling finds what is one bounce away
-    path.chance_here =
-        std::min(1.f, max_component(path.throughput) * path.eta_scale * path.cell_here->strength());
+    if (!path.cell_here) return;
     const float u_chance = sampler.next_1d();
     const Vec2f u_direction = sampler.next_2d();
-    if (!(u_chance < path.chance_here)) return before;
+    const auto key = static_cast<std::uint64_t>(sampler.next_choice() * 0x1p53);
+    path.chance_here =
+        std::min(1.f, max_component(path.throughput) * path.eta_scale * path.cell_here->strength());
+    if (max_depth() - bounces == 1) return; // light sampling finds what is one bounce away
+    if (!(u_chance < path.chance_here)) return;
     const float u_choice = std::min(u_chance / path.chance_here, one_minus_epsilon); // uniform again
     const auto guided = path.cell_here->sample(vertex.at().position, u_choice, u_direction);
-    if (!guided) return before;
+    if (!guided) return;
     const BsdfValue value = vertex.evaluate(guided->direction);
-    if (value.f_cos.is_black()) return before;
+    if (value.f_cos.is_black()) return;
     if (tracer.logging())
         tracer.log(PathEvent::Kind::direct,
                    fmt::format("a guided direction: pdf {:.6g}, of the BSDF {:.6g}", guided->pdf, value.pdf));
     const float density = path.chance_here * guided->pdf;
     const float weight = mis_weight(heuristic(), density, value.pdf); // [1]
-    const Chain chain{vertex.at().spawn_ray(guided->direction),
-                      path.throughput * value.f_cos * (weight / density), vertex.receiver(), bounces + 1};
-    return follow(tracer, sampler, chain, before);
+    follow(tracer, path,
+           {vertex.at().spawn_ray(guided->direction), path.throughput * value.f_cos * (weight / density),
+            vertex.receiver(), bounces + 1, key});
 }
 
-Color GuidedPath::follow(Tracer& tracer, Sampler& sampler, Chain chain, Color sum) const
+void GuidedPath::follow(Tracer& tracer, GuidedPathState& path, Chain chain) const
 {
     const Scene& scene = tracer.scene();
+    std::uint64_t drawn = 0;
+    const auto draw = [&] { return static_cast<float>(random_word(chain.key, drawn++) >> 40) * 0x1p-24f; };
     for (int length = 0;;) {
         const auto hit = tracer.intersect(chain.ray, RayKind::bounce);
         if (length > 0 && (!hit || hit->emitter)) {
             const Color contribution =
                 chain.throughput *
                 scene.emission(chain.receiver, chain.ray.direction, hit ? &*hit : nullptr).radiance;
-            if (tracer.logging() && !contribution.is_black())
-                tracer.log_contribution(PathEvent::Kind::emission, "emission", contribution);
-            sum += contribution;
-            if (tracer.light_notes()) [[unlikely]]
-                tracer.light_notes()->add(
-                    {sum, FoundBy::direction, hit ? hit->emitter_index : environment_index, chain.depth});
+            if (!contribution.is_black()) {
+                if (tracer.logging())
+                    tracer.log_contribution(PathEvent::Kind::emission, "emission", contribution);
+                path.waiting.push_back(
+                    {chain.depth, hit ? hit->emitter_index : environment_index, contribution});
+            }
         }
-        if (!hit || (hit->emitter && scene.emitters_absorb())) return sum;
+        if (!hit || (hit->emitter && scene.emitters_absorb())) return;
         const Vertex vertex(*hit, chain.ray.direction);
         const bool passes_only = chain.depth == max_depth() || length == longest_chain;
-        if (!vertex.has_delta_lobes() || (passes_only && !scene.has_null_surfaces())) return sum;
-        const float u_lobe = sampler.next_1d();
-        const Vec2f u = sampler.next_2d();
-        const std::optional<BsdfSample> next = vertex.sample(u_lobe, u);
-        if (!next || !next->is_delta()) return sum;
+        if (!vertex.has_delta_lobes() || (passes_only && !scene.has_null_surfaces())) return;
+        const float u_lobe = draw();
+        const float u_x = draw();
+        const float u_y = draw();
+        const std::optional<BsdfSample> next = vertex.sample(u_lobe, {u_x, u_y});
+        if (!next || !next->is_delta()) return;
         chain.throughput *= next->weight;
         if (next->is_pass()) {
-            if (counts_passes() && chain.depth++ == max_depth()) return sum;
+            if (counts_passes() && chain.depth++ == max_depth()) return;
             chain.ray = hit->spawn_ray(chain.ray.direction);
             continue;
         }
-        if (passes_only) return sum;
+        if (passes_only) return;
         ++length;
         ++chain.depth;
         chain.receiver = vertex.receiver();

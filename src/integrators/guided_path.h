@@ -40,6 +40,16 @@ struct GuidedPathState : PathState {
     Vec3f direction{0.f}; // in world space
     float pdf_of_direction = 0.f;
     int chain = 0; // delta bounces since then
+
+    float u_survival = 0.f; // for roulette at the vertex that is being looked at
+
+    // Light that chains have met, and that waits for the path to come to its depth.
+    struct Waiting {
+        int depth;
+        std::uint32_t emitter;
+        Color contribution;
+    };
+    std::vector<Waiting> waiting;
 };
 
 class GuidedPath : public PathEstimator {
@@ -55,19 +65,19 @@ public:
 
     // Asked by path_loop.h beside what it asks of every technique.
     float chain_weight(const GuidedPathState& path) const;
-    // The sum so far, and what guided chains from this vertex add to it. bounces: before the vertex.
-    Color with_chains(Tracer& tracer, Sampler& sampler, GuidedPathState& path, const Vertex& vertex,
-                      int bounces, const Color& sum) const;
+    void find_chains(Tracer& tracer, Sampler& sampler, GuidedPathState& path, const Vertex& vertex,
+                     int bounces) const;
+    Color with_waiting(Tracer& tracer, GuidedPathState& path, int depth, Color sum) const;
 
 private:
     struct Chain {
         Ray ray; // its next one
         Color throughput;
         LightReceiver receiver;
-        int depth; // surface bounces so far
+        int depth;         // surface bounces so far
+        std::uint64_t key; // of its random numbers
     };
-    // The sum so far, and the light that the chain meets.
-    Color follow(Tracer& tracer, Sampler& sampler, Chain chain, Color sum) const;
+    void follow(Tracer& tracer, GuidedPathState& path, Chain chain) const;
 
     const CausticGuide* guide_;
 };

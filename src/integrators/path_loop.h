@@ -17,8 +17,10 @@
 //
 //     State                                                     a PathState that knows more
 //     float chain_weight(const State&) const                    the weight of what the path meets after delta bounces
-//     Color with_chains(Tracer&, Sampler&, State&, const Vertex&, int bounces, const Color& sum) const
-//                                                               the sum so far, and what the other means find from the vertex
+//     void find_chains(Tracer&, Sampler&, State&, const Vertex&, int bounces) const
+//                                                               looks by the other means; what is found waits in the state
+//     Color with_waiting(Tracer&, State&, int depth, const Color& sum) const
+//                                                               the sum so far, and what waits of no more than that depth
 
 #include "integrators/vertex.h"
 #include "plumb/model/sampler.h"
@@ -147,27 +149,38 @@ Color scattered(const Technique& technique, Tracer& tracer, Sampler& sampler, co
     return contribution;
 }
 
+// Where chains have drawn numbers of the vertex, roulette has drawn its own before.
+template <class Technique>
+float number_of_roulette(const Technique&, Sampler& sampler, const typename StateOf<Technique>::Type& path)
+{
+    if constexpr (LooksBehindDeltaBounces<Technique>)
+        return path.u_survival;
+    else
+        return sampler.next_1d();
+}
+
 // Russian roulette (Arvo and Kirk 1990): the path ends with some probability, and the survivors stand for the dead.
 template <class Technique>
-bool survives(const Technique& technique, Tracer& tracer, Sampler& sampler, PathState& path, int bounces)
+bool survives(const Technique& technique, Tracer& tracer, Sampler& sampler,
+              typename StateOf<Technique>::Type& path, int bounces)
 {
     const float survival = technique.survival(path, bounces);
     if (survival >= 1.f) return true;
-    const bool survived = sampler.next_1d() < survival;
+    const bool survived = number_of_roulette(technique, sampler, path) < survival;
     if (survived) path.throughput /= survival;
     if (tracer.watched()) note_roulette(tracer, survival, survived);
     return survived;
 }
 
 template <class Technique>
-Color trace_path(const Technique& technique, Tracer& tracer, Sampler& sampler, Ray ray)
+Color follow_path(const Technique& technique, Tracer& tracer, Sampler& sampler,
+                  typename StateOf<Technique>::Type& path, Ray ray)
 {
     const auto end = [&](const char* why) {
         if (tracer.logging()) tracer.log(PathEvent::Kind::end, why);
     };
     const bool may_pass = tracer.scene().has_null_surfaces();
     Color result(0.f);
-    typename StateOf<Technique>::Type path(ray.origin);
     int bounces = 0;
     for (int surfaces = 0;; ++surfaces) {
         const RayKind kind = surfaces == 0 ? RayKind::camera : RayKind::bounce;
@@ -191,13 +204,15 @@ Color trace_path(const Technique& technique, Tracer& tracer, Sampler& sampler, R
         if (may_pass && technique.counts_passes())
             tracer.limit_passes(passes_left(technique.max_depth(), bounces));
         if (!passes_only) {
+            if constexpr (LooksBehindDeltaBounces<Technique>)
+                result = technique.with_waiting(tracer, path, bounces, result);
             const std::size_t noted = tracer.noted_light();
             const Color before = result;
             result += scattered(technique, tracer, sampler, path, vertex);
             if (tracer.light_notes()) [[unlikely]]
                 note_direct(tracer, path, bounces + 1, before, noted);
             if constexpr (LooksBehindDeltaBounces<Technique>)
-                result = technique.with_chains(tracer, sampler, path, vertex, bounces, result);
+                technique.find_chains(tracer, sampler, path, vertex, bounces);
         }
         if (!next) return end("the surface absorbs the path"), result;
         if (may_pass && next->is_pass()) {
@@ -217,6 +232,17 @@ Color trace_path(const Technique& technique, Tracer& tracer, Sampler& sampler, R
         if (!survives(technique, tracer, sampler, path, bounces)) return end("roulette"), result;
         ray = hit->spawn_ray(vertex.to_world(*next));
     }
+}
+
+// Contributions are added in the order of their depths: so an image of less depth is a part of the sum.
+template <class Technique>
+Color trace_path(const Technique& technique, Tracer& tracer, Sampler& sampler, const Ray& ray)
+{
+    typename StateOf<Technique>::Type path(ray.origin);
+    Color result = follow_path(technique, tracer, sampler, path, ray);
+    if constexpr (LooksBehindDeltaBounces<Technique>)
+        result = technique.with_waiting(tracer, path, std::numeric_limits<int>::max(), result);
+    return result;
 }
 
 } // namespace plumb
