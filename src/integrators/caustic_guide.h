@@ -73,7 +73,7 @@ private:
         std::uint32_t index = 0; // of the first of two children, or of a leaf
     };
     struct Leaf {
-        Box3f reach;             // where it may be asked
+        Box3f reach; // where it may be asked
         const GuideCell* cell = nullptr;
     };
     std::vector<Node> nodes_;

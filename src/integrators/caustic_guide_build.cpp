@@ -72,7 +72,8 @@ Box3f box_of(std::span<const CausticPhoton> photons)
 // Photons per unit area, roughly: how much light arrives in a cell.
 double brightness(std::span<const CausticPhoton> photons)
 {
-    const double diagonal2 = photons.empty() ? 0.0 : static_cast<double>(length_squared(box_of(photons).size()));
+    const double diagonal2 =
+        photons.empty() ? 0.0 : static_cast<double>(length_squared(box_of(photons).size()));
     return diagonal2 > 0.0 ? static_cast<double>(photons.size()) / diagonal2 : 0.0;
 }
 
@@ -197,8 +198,7 @@ CausticGuide CausticGuide::learn(const Scene& scene, int threads)
     guide.facts_.emitted = found.emitted;
     guide.facts_.arrived = found.photons.size();
     if (!found.photons.empty()) GuideBuilder(std::move(found.photons)).build(guide, threads);
-    guide.facts_.seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    guide.facts_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return guide;
 }
 

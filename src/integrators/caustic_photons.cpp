@@ -117,7 +117,8 @@ public:
     {
         const DiscreteDistribution::Choice choice = choice_.sample(random.next_choice());
         const Lamp& lamp = lamps_[choice.index];
-        return lamp.object ? emit_from_surface(lamp, choice.u, random) : emit_from_afar(lamp, choice.u, random);
+        return lamp.object ? emit_from_surface(lamp, choice.u, random)
+                           : emit_from_afar(lamp, choice.u, random);
     }
 
 private:
@@ -126,8 +127,8 @@ private:
     {
         double part = 0.0;
         for (const Ball& target : targets_)
-            part += lamp.object ? 0.5 * static_cast<double>(one_minus_cos_of(
-                                            target, lamp.object->shape->bounds().center()))
+            part += lamp.object ? 0.5 * static_cast<double>(
+                                            one_minus_cos_of(target, lamp.object->shape->bounds().center()))
                                 : static_cast<double>(sqr(target.radius / everything_.radius));
         return std::min(part, 1.0);
     }
@@ -150,7 +151,8 @@ private:
         std::size_t chosen = 0;
         while (chosen + 1 < targets_.size() && !(place < ends[chosen])) ++chosen;
         const float one_minus_cos = one_minus_cos_of(targets_[chosen], point.position);
-        const Vec3f axis = one_minus_cos < 2.f ? normalize(targets_[chosen].center - point.position) : point.normal;
+        const Vec3f axis =
+            one_minus_cos < 2.f ? normalize(targets_[chosen].center - point.position) : point.normal;
         const Vec3f direction = Frame(axis).to_world(square_to_uniform_cone(u, one_minus_cos));
         const float cosine = dot(direction, point.normal);
         if (!(cosine > 0.f)) return std::nullopt;
@@ -172,7 +174,8 @@ private:
 
     std::optional<Emission> emit_from_afar(const Lamp& lamp, double u_select, PhotonRandom& random) const
     {
-        const auto light = lamp.emitter->sample({everything_.center}, u_select, random.next_2d(), Measure::best);
+        const auto light =
+            lamp.emitter->sample({everything_.center}, u_select, random.next_2d(), Measure::best);
         const double place = random.next_choice() * largest_areas_.back();
         const Vec2f u = random.next_2d();
         const float u_count = random.next_1d();
@@ -184,8 +187,7 @@ private:
         const Ball& target = targets_[chosen];
         const Vec2f disk = square_to_concentric_disk(u) * target.radius;
         const float outside = 2.f * everything_.radius + length(target.center - everything_.center);
-        const Vec3f origin =
-            target.center + Frame(light->wi).to_world(Vec3f(disk.x, disk.y, outside));
+        const Vec3f origin = target.center + Frame(light->wi).to_world(Vec3f(disk.x, disk.y, outside));
         return Emission{Ray(origin, -light->wi), 1e3f * everything_.radius};
     }
 
@@ -193,7 +195,7 @@ private:
     std::vector<Ball> targets_;
     Ball everything_;
     std::vector<Lamp> lamps_;
-    DiscreteDistribution choice_; // of lamps_
+    DiscreteDistribution choice_;       // of lamps_
     std::vector<double> largest_areas_; // of the targets seen from afar, added up
 };
 

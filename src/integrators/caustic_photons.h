@@ -17,11 +17,11 @@ inline constexpr int longest_chain = 16;
 
 // World space. All photons stand for as much light.
 struct CausticPhoton {
-    Vec3f position;           // on the surface that scatters
-    Vec3f towards;            // unit vector, to where the photon came from
-    float cosine = 0.f;       // between the shading normal and towards, not negative
-    float to_last = 0.f;      // distance to the last delta bounce
-    float to_emitter = 0.f;   // along the whole chain; for infinite emitters far outside the scene
+    Vec3f position;         // on the surface that scatters
+    Vec3f towards;          // unit vector, to where the photon came from
+    float cosine = 0.f;     // between the shading normal and towards, not negative
+    float to_last = 0.f;    // distance to the last delta bounce
+    float to_emitter = 0.f; // along the whole chain; for infinite emitters far outside the scene
 };
 
 struct CausticPhotons {

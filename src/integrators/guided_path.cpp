@@ -60,8 +60,8 @@ void GuidedPath::find_chains(Tracer& tracer, Sampler& sampler, GuidedPathState& 
     const BsdfValue value = vertex.evaluate(guided->direction);
     if (value.f_cos.is_black()) return;
     if (tracer.logging())
-        tracer.log(PathEvent::Kind::direct, fmt::format("a guided direction: pdf {:.6g}, of the BSDF {:.6g}",
-                                                        guided->pdf, value.pdf));
+        tracer.log(PathEvent::Kind::direct,
+                   fmt::format("a guided direction: pdf {:.6g}, of the BSDF {:.6g}", guided->pdf, value.pdf));
     const float density = path.chance_here * guided->pdf;
     const float weight = mis_weight(heuristic(), density, value.pdf); // [1]
     follow(tracer, path,

@@ -57,13 +57,16 @@ public:
     using State = GuidedPathState;
 
     // The guide must live as long.
-    GuidedPath(const PathEstimator& estimator, const CausticGuide& guide) : PathEstimator(estimator), guide_(&guide) {}
+    GuidedPath(const PathEstimator& estimator, const CausticGuide& guide)
+        : PathEstimator(estimator), guide_(&guide)
+    {}
 
     Color radiance(Tracer& tracer, Sampler& sampler, const Ray& ray) const;
 
     // Asked by path_loop.h beside what it asks of every technique.
     float chain_weight(const GuidedPathState& path) const;
-    void find_chains(Tracer& tracer, Sampler& sampler, GuidedPathState& path, const Vertex& vertex, int bounces) const;
+    void find_chains(Tracer& tracer, Sampler& sampler, GuidedPathState& path, const Vertex& vertex,
+                     int bounces) const;
     Color with_waiting(Tracer& tracer, GuidedPathState& path, int depth, Color sum) const;
 
 private:

@@ -59,7 +59,10 @@ struct PathState {
 
 // The state that the technique wants.
 template <class Technique>
-concept LooksBehindDeltaBounces = requires { typename Technique::State; };
+concept LooksBehindDeltaBounces = requires
+{
+    typename Technique::State;
+};
 template <class Technique>
 struct StateOf {
     using Type = PathState;

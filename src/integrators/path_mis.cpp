@@ -36,7 +36,8 @@ class PathMis final : public Integrator, public Guided {
 public:
     explicit PathMis(const Params& params)
         : estimator_(PathEstimator::LightStrategy::both, PathLimits(params), heuristic_of(params)),
-          may_guide_(params.boolean("guide", true) && estimator_.max_depth() != 0 && estimator_.max_depth() != 1)
+          may_guide_(params.boolean("guide", true) && estimator_.max_depth() != 0 &&
+                     estimator_.max_depth() != 1)
     {}
 
     void train(const Scene& scene, int threads) const override

@@ -189,7 +189,8 @@ Rendering::Rendering(const RenderJob& job, const RenderOptions& options, RenderS
                                 layer_names(state_.film.layers()), layer_names(wanted)));
     // Every rendering pays for what its integrator has learnt, whoever was the first to ask for it: the time of an image does not
     // depend on which others were made before.
-    if (const auto guide = train(*job_.integrator, *job_.scene, options_.threads)) state_.seconds += guide->seconds;
+    if (const auto guide = train(*job_.integrator, *job_.scene, options_.threads))
+        state_.seconds += guide->seconds;
 }
 
 bool Rendering::take(const SampleSet& wanted, const ProgressReport& progress, const Pause& pause,

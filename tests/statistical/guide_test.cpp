@@ -131,7 +131,8 @@ TEST_CASE("guided directions follow their density", "[statistical][guide]")
     const int places = 8;
     TestRandom random(2);
     for (int place = 0; place < places;) {
-        const Vec3f from(static_cast<float>(random.between(-2, 2)), 0.f, static_cast<float>(random.between(-2, 2)));
+        const Vec3f from(static_cast<float>(random.between(-2, 2)), 0.f,
+                         static_cast<float>(random.between(-2, 2)));
         const GuideCell* const cell = guide.cell_at(from);
         if (!cell) continue;
         ++place;
@@ -162,8 +163,12 @@ TEST_CASE("light from a lamp that a floor sees in a mirror has its closed form, 
 {
     const Scene scene = mirrored_lamp();
     REQUIRE(CausticGuide::learn(scene, 0).is_on());
-    const PlacedLamp image{LampKind::rectangle, 0.3, Vec3f(0.8f, 3.f, 0.3f), Vec3d(0, -1, 0),
-                           {Vec3f(0.7f, 3.f, 0.15f), Vec3f(0.9f, 3.f, 0.15f), Vec3f(0.9f, 3.f, 0.45f), Vec3f(0.7f, 3.f, 0.45f)}};
+    const PlacedLamp image{
+        LampKind::rectangle,
+        0.3,
+        Vec3f(0.8f, 3.f, 0.3f),
+        Vec3d(0, -1, 0),
+        {Vec3f(0.7f, 3.f, 0.15f), Vec3f(0.9f, 3.f, 0.15f), Vec3f(0.9f, 3.f, 0.45f), Vec3f(0.7f, 3.f, 0.45f)}};
     const double expected = static_cast<double>(lamp_radiance * floor_albedo) *
                             form_factor(image, Vec3d(floor_point), Vec3d(0, 1, 0));
     for (const bool guided : {true, false})
@@ -173,7 +178,8 @@ TEST_CASE("light from a lamp that a floor sees in a mirror has its closed form, 
             guided ? 20'000 : 200'000, sidak_level(significance, 2));
 }
 
-TEST_CASE("light from a lamp behind a pane has its integral, with and without a guide", "[statistical][guide]")
+TEST_CASE("light from a lamp behind a pane has its integral, with and without a guide",
+          "[statistical][guide]")
 {
     const Scene scene = lamp_behind_pane();
     REQUIRE(CausticGuide::learn(scene, 0).is_on());
@@ -205,7 +211,8 @@ TEST_CASE("a guide is a function of the scene, whatever the threads", "[statisti
     TestRandom random(4);
     int guided = 0;
     for (int i = 0; i < 2000; ++i) {
-        const Vec3f point(static_cast<float>(random.between(-2, 2)), 0.f, static_cast<float>(random.between(-2, 2)));
+        const Vec3f point(static_cast<float>(random.between(-2, 2)), 0.f,
+                          static_cast<float>(random.between(-2, 2)));
         const GuideCell* const a = one.cell_at(point);
         const GuideCell* const b = many.cell_at(point);
         REQUIRE((a == nullptr) == (b == nullptr));
