@@ -78,14 +78,21 @@ std::optional<fs::path> elsewhere(const fs::path& directory, const std::string& 
 {
     constexpr int levels = 8;
     const fs::path name = is_of_windows(slashes) ? fs::path(slashes.substr(2)) : fs::path(slashes);
-    fs::path rest;
-    for (const fs::path& part : name.relative_path())
-        if (!rest.empty() || part != "..") rest /= part;
+    const fs::path relative = name.relative_path();
+    const auto from = [&](fs::path::iterator first) {
+        fs::path rest;
+        for (; first != relative.end(); ++first) rest /= *first;
+        return rest;
+    };
+    fs::path::iterator first = relative.begin();
     if (name.is_absolute()) {
-        for (; !rest.empty(); rest = rest.lexically_relative(*rest.begin()))
-            if (const fs::path path = (directory / rest).lexically_normal(); is_file(path)) return path;
+        for (; first != relative.end(); ++first)
+            if (const fs::path path = (directory / from(first)).lexically_normal(); is_file(path))
+                return path;
         return {};
     }
+    while (first != relative.end() && *first == "..") ++first;
+    const fs::path rest = from(first);
     if (!rest.has_parent_path()) return {}; // there are many files of one name
     fs::path above = directory;
     for (int i = 0; i < levels; ++i) {

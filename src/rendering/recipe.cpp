@@ -20,8 +20,14 @@ SampleSet samples_of(const Recipe& recipe, const PixelRect& window)
     const std::string image = recipe.image.string();
     const std::string name = "plumb:samplesTaken";
     const auto is_taken = [&](const auto& entry) { return entry.first == name; };
+    const auto is_empty = [](const auto& entry) {
+        return entry.first == "plumb:samplesPerPixel" && entry.second == MetadataValue(0);
+    };
     // Where they are said, the smallest number of a pixel may be 0.
     if (std::none_of(recipe.header.begin(), recipe.header.end(), is_taken)) {
+        if (std::any_of(recipe.header.begin(), recipe.header.end(), is_empty))
+            throw Error(fmt::format(
+                "'{}' has no samples: its rendering was interrupted before the first; resume it", image));
         if (const auto per_pixel = header_samples(recipe.header, "plumb:samplesPerPixel", image))
             return SampleSet(SampleBlock{window, 0, *per_pixel});
         throw Error(fmt::format("the header of '{}' does not say which samples it has", image));

@@ -26,9 +26,10 @@ PLACES = {"bsdf": '<shape type="sphere">%s</shape>', "rfilter": '<camera type="p
 
 
 def scenes():
+    """Those in our own language; a version at the root makes it one of Mitsuba's."""
     for directory in ("scenes", "docs/example"):
         for path in sorted((ROOT / directory).rglob("*.xml")):
-            if re.search(r"<scene[ >]", path.read_text(encoding="utf-8")):
+            if re.search(r"<scene(?![^>]*\bversion=)[ >]", path.read_text(encoding="utf-8")):
                 yield path
 
 
