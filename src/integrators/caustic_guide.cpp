@@ -6,15 +6,6 @@
 #include "plumb/sampling/sampling.h"
 
 namespace plumb {
-namespace {
-
-float one_minus_cos_of(float sine_squared)
-{
-    return sine_squared / (1.f + std::sqrt(1.f - sine_squared));
-}
-
-} // namespace
-
 void GuideCell::add(const Kernel& kernel)
 {
     x_[count_] = kernel.source.x;

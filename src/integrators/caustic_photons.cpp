@@ -22,25 +22,6 @@ constexpr std::uint64_t photon_key = 0x63617573746963; // "caustic"
 constexpr int most_surfaces = 64;                      // passes through null lobes included
 constexpr std::size_t most_targets = 64;
 
-// The random numbers of one photon.
-class PhotonRandom {
-public:
-    explicit PhotonRandom(std::uint64_t photon) : key_(random_word(photon_key, photon)) {}
-
-    double next_choice() { return static_cast<double>(random_word(key_, next_++) >> 11) * 0x1p-53; }
-    float next_1d() { return static_cast<float>(random_word(key_, next_++) >> 40) * 0x1p-24f; }
-    Vec2f next_2d()
-    {
-        const float x = next_1d();
-        const float y = next_1d();
-        return {x, y};
-    }
-
-private:
-    std::uint64_t key_;
-    std::uint64_t next_ = 0;
-};
-
 bool has_delta_bounces(const SceneObject& object)
 {
     return object.bsdf->lobes().has_any(Lobe::delta_reflection | Lobe::delta_transmission);
@@ -72,11 +53,11 @@ std::vector<Ball> find_targets(const Scene& scene)
 }
 
 // 1 - cos of half the angle that a ball subtends; 2 from inside.
-float one_minus_cos_of(const Ball& ball, const Vec3f& from)
+float one_minus_cos_towards(const Ball& ball, const Vec3f& from)
 {
     const float sine2 = sqr(ball.radius) / length_squared(ball.center - from);
     if (!(sine2 < 1.f)) return 2.f;
-    return sine2 / (1.f + std::sqrt(1.f - sine2));
+    return one_minus_cos_of(sine2);
 }
 
 // An emitter that paths can meet; the shape of it, or null where it is infinite.
@@ -113,7 +94,7 @@ public:
         Ray ray;
         float before; // distance from the emitter to the ray's origin
     };
-    std::optional<Emission> emit(PhotonRandom& random) const
+    std::optional<Emission> emit(RandomStream& random) const
     {
         const DiscreteDistribution::Choice choice = choice_.sample(random.next_choice());
         const Lamp& lamp = lamps_[choice.index];
@@ -127,14 +108,14 @@ private:
     {
         double part = 0.0;
         for (const Ball& target : targets_)
-            part += lamp.object ? 0.5 * static_cast<double>(
-                                            one_minus_cos_of(target, lamp.object->shape->bounds().center()))
+            part += lamp.object ? 0.5 * static_cast<double>(one_minus_cos_towards(
+                                            target, lamp.object->shape->bounds().center()))
                                 : static_cast<double>(sqr(target.radius / everything_.radius));
         return std::min(part, 1.0);
     }
 
     // [1] has photons from lamps along cosines; here into the cones of the targets, and the cosine decides which of them count.
-    std::optional<Emission> emit_from_surface(const Lamp& lamp, double u_select, PhotonRandom& random) const
+    std::optional<Emission> emit_from_surface(const Lamp& lamp, double u_select, RandomStream& random) const
     {
         const ShapeSample point = lamp.object->shape->sample_area(u_select, random.next_2d());
         std::array<float, most_targets> ends;
@@ -142,7 +123,7 @@ private:
         for (std::size_t i = 0; i < targets_.size(); ++i) {
             const Ball& target = targets_[i];
             const bool is_behind = dot(target.center - point.position, point.normal) < -target.radius;
-            ends[i] = sum += is_behind ? 0.f : one_minus_cos_of(target, point.position);
+            ends[i] = sum += is_behind ? 0.f : one_minus_cos_towards(target, point.position);
         }
         const float place = random.next_1d() * sum;
         const Vec2f u = random.next_2d();
@@ -150,7 +131,7 @@ private:
         if (!(sum > 0.f)) return std::nullopt;
         std::size_t chosen = 0;
         while (chosen + 1 < targets_.size() && !(place < ends[chosen])) ++chosen;
-        const float one_minus_cos = one_minus_cos_of(targets_[chosen], point.position);
+        const float one_minus_cos = one_minus_cos_towards(targets_[chosen], point.position);
         const Vec3f axis =
             one_minus_cos < 2.f ? normalize(targets_[chosen].center - point.position) : point.normal;
         const Vec3f direction = Frame(axis).to_world(square_to_uniform_cone(u, one_minus_cos));
@@ -172,7 +153,7 @@ private:
         return Emission{at.spawn_ray(direction), 0.f};
     }
 
-    std::optional<Emission> emit_from_afar(const Lamp& lamp, double u_select, PhotonRandom& random) const
+    std::optional<Emission> emit_from_afar(const Lamp& lamp, double u_select, RandomStream& random) const
     {
         const auto light =
             lamp.emitter->sample({everything_.center}, u_select, random.next_2d(), Measure::best);
@@ -203,7 +184,7 @@ private:
 void trace_photon(const Scene& scene, const PhotonSource& source, std::uint64_t index,
                   std::vector<CausticPhoton>& photons)
 {
-    PhotonRandom random(index);
+    RandomStream random(random_word(photon_key, index));
     const auto emission = source.emit(random);
     if (!emission) return;
     Ray ray = emission->ray;

@@ -72,8 +72,7 @@ void GuidedPath::find_chains(Tracer& tracer, Sampler& sampler, GuidedPathState& 
 void GuidedPath::follow(Tracer& tracer, GuidedPathState& path, Chain chain) const
 {
     const Scene& scene = tracer.scene();
-    std::uint64_t drawn = 0;
-    const auto draw = [&] { return static_cast<float>(random_word(chain.key, drawn++) >> 40) * 0x1p-24f; };
+    RandomStream random(chain.key);
     for (int length = 0;;) {
         const auto hit = tracer.intersect(chain.ray, RayKind::bounce);
         if (length > 0 && (!hit || hit->emitter)) {
@@ -91,10 +90,9 @@ void GuidedPath::follow(Tracer& tracer, GuidedPathState& path, Chain chain) cons
         const Vertex vertex(*hit, chain.ray.direction);
         const bool passes_only = chain.depth == max_depth() || length == longest_chain;
         if (!vertex.has_delta_lobes() || (passes_only && !scene.has_null_surfaces())) return;
-        const float u_lobe = draw();
-        const float u_x = draw();
-        const float u_y = draw();
-        const std::optional<BsdfSample> next = vertex.sample(u_lobe, {u_x, u_y});
+        const float u_lobe = random.next_1d();
+        const Vec2f u = random.next_2d();
+        const std::optional<BsdfSample> next = vertex.sample(u_lobe, u);
         if (!next || !next->is_delta()) return;
         chain.throughput *= next->weight;
         if (next->is_pass()) {

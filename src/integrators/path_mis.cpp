@@ -29,7 +29,7 @@ namespace plumb {
 ///     heuristic   string    how the two share: power or balance   (default power)
 ///     candidates  integer   emitter samples at the first glossy surface of a path; one of them is followed, chosen by what it
 ///                           would add if nothing were in the way   (default 4)
-///     guide       boolean   whether there is the third way   (default true)
+///     guide       boolean   whether caustics are also looked for in directions learnt from photons   (default true)
 ///
 ///         <integrator type="path_mis">
 ///             <string name="heuristic" value="balance"/>

@@ -24,6 +24,25 @@ inline std::uint64_t random_word(std::uint64_t key, std::uint64_t number)
     return x ^ (x >> 31);
 }
 
+// The uniform numbers of such a stream, one after the other, in [0, 1): as a Sampler draws them.
+class RandomStream {
+public:
+    explicit RandomStream(std::uint64_t key) : key_(key) {}
+
+    double next_choice() { return static_cast<double>(random_word(key_, next_++) >> 11) * 0x1p-53; }
+    float next_1d() { return static_cast<float>(random_word(key_, next_++) >> 40) * 0x1p-24f; }
+    Vec2f next_2d()
+    {
+        const float x = next_1d();
+        const float y = next_1d();
+        return {x, y};
+    }
+
+private:
+    std::uint64_t key_;
+    std::uint64_t next_ = 0;
+};
+
 // A key for a pixel; rest: whatever else is to have numbers of its own, below 2^32. Keys of one seed differ.
 inline std::uint64_t pixel_key(std::uint64_t seed, Vec2i pixel, std::uint64_t rest = 0)
 {

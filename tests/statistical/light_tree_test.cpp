@@ -6,6 +6,7 @@
 
 #include "plumb/sampling/sampling.h"
 #include "support/catch.h"
+#include "support/choice_outcome.h"
 #include "support/little_scene.h"
 
 #include <memory>
@@ -134,26 +135,7 @@ Outcome choices_outcome(const Lights& lights, const LightTree& tree, const Light
         ++chosen[2 * choice->index + (choice->u < 0.5 ? 0 : 1)];
     }
 
-    double statistic = 0.0;
-    double pooled_chance = 0.0;
-    double pooled = 0.0;
-    int cells = 0;
-    const auto add = [&](double observed, double expected) {
-        statistic += sqr(observed - expected) / expected;
-        ++cells;
-    };
-    const auto all = static_cast<double>(samples);
-    for (std::size_t i = 0; i < chances.size(); ++i) {
-        if (chances[i] * all >= 5.0) {
-            add(chosen[i], chances[i] * all);
-        } else {
-            pooled_chance += chances[i];
-            pooled += chosen[i];
-        }
-    }
-    if (pooled_chance * all >= 5.0) add(pooled, pooled_chance * all);
-    const double p = cells > 1 ? chi2_survival(statistic, cells - 1) : 1.0;
-    return {p, fmt::format("chi2 {} with {} cells", statistic, cells)};
+    return choice_outcome(chosen, chances, samples);
 }
 
 } // namespace

@@ -29,6 +29,11 @@ float uniform_sphere_pdf();
 // Directions within the angle whose cosine is 1 - one_minus_cos of +z. Taking 1 - cos keeps tiny cones exact.
 Vec3f square_to_uniform_cone(const Vec2f& u, float one_minus_cos);
 float uniform_cone_pdf(float one_minus_cos);
+// From the squared sine of an angle below 90 degrees.
+inline float one_minus_cos_of(float sine_squared)
+{
+    return sine_squared / (1.f + std::sqrt(1.f - sine_squared));
+}
 
 // Barycentric coordinates of the second and third vertex: (1 - sqrt(1 - u.x), u.y sqrt(1 - u.x)), uniform in the
 // triangle's area.
