@@ -38,13 +38,17 @@ LittleScene balls()
 
 // Of a floor under a lamp that shines upwards, into a mirror at y = 2: it is lit by what seems a lamp at y = 3.
 const Vec3f floor_point(0.1f, 0.f, -0.2f);
-Scene mirrored_lamp()
+LittleScene mirror_and_lamp()
 {
     LittleScene scene;
     scene.rectangle(Vec3f(0.f), 6.f, 6.f, Vec3f(0, 1, 0), diffuse(floor_albedo));
     scene.rectangle(Vec3f(0.f, 2.f, 0.f), 6.f, 6.f, Vec3f(0, -1, 0), mirror());
     scene.rectangle(Vec3f(0.8f, 1.f, 0.3f), 0.2f, 0.3f, Vec3f(0, 1, 0), diffuse(0.f), Color(lamp_radiance));
-    return scene.build();
+    return scene;
+}
+Scene mirrored_lamp()
+{
+    return mirror_and_lamp().build();
 }
 
 // 1 - R of a thin pane, whose faces reflect r each: R = 2 r / (1 + r), of index 1.5.
@@ -188,6 +192,23 @@ TEST_CASE("light from a lamp behind a pane has its integral, with and without a 
             guided ? "guided" : "not guided", light_behind_pane(),
             [&](std::uint64_t n, std::uint64_t seed) { return light_at_the_floor(scene, guided, n, seed); },
             guided ? 20'000 : 200'000, sidak_level(significance, 2));
+}
+
+TEST_CASE("a lamp in the way of guided directions counts once", "[statistical][guide]")
+{
+    // Half of the lamp in the mirror is behind another one, which emitter samples and the BSDF find.
+    LittleScene scene = mirror_and_lamp();
+    scene.rectangle(Vec3f(0.363f, 1.f, -0.033f), 0.06f, 0.2f, Vec3f(0, -1, 0), diffuse(0.f),
+                    Color(lamp_radiance));
+    const Scene lamps = scene.build();
+    REQUIRE(CausticGuide::learn(lamps, 0).is_on());
+    check_statistic(
+        "two lamps",
+        [&](std::uint64_t n, std::uint64_t seed) {
+            return same_mean_outcome(light_at_the_floor(lamps, true, n, seed),
+                                     light_at_the_floor(lamps, false, 10 * n, seed + 1000), 1e-5);
+        },
+        20'000, significance);
 }
 
 TEST_CASE("a guide makes caustics less noisy", "[statistical][guide]")
