@@ -74,6 +74,11 @@ LightLanes TriangleTree::triangles_of(std::uint32_t cluster) const
     return lanes_of(mesh_, std::span(order_).subspan(first, count), space_, area_);
 }
 
+LightLanes::Sums TriangleTree::importance_in(std::uint32_t cluster, const LaneReceiver& at) const
+{
+    return kept_.empty() ? triangles_of(cluster).importance(at) : kept_[cluster].importance(at);
+}
+
 std::optional<TriangleTree::Choice> TriangleTree::choose(const LightReceiver& receiver, double u) const
 {
     const LaneReceiver at = to_lanes(receiver);
@@ -98,7 +103,7 @@ std::optional<TriangleTree::Choice> TriangleTree::choose(const LightReceiver& re
         }
         node = nodes_[node].child[child];
     }
-    const LightLanes::Sums sums = triangles_of(here.first).importance(at);
+    const LightLanes::Sums sums = importance_in(here.first, at);
     const auto choice = choose_lane(sums, u);
     if (!choice) return std::nullopt;
     const auto place = first_place(here.first) + static_cast<std::uint32_t>(choice->lane);
@@ -125,7 +130,7 @@ double TriangleTree::probability(const LightReceiver& receiver, std::uint32_t tr
                    by_area_.share_among(place, first_place(here.first), first_place(here.first + here.count));
         node = nodes_[node].child[child];
     }
-    const LightLanes::Sums sums = triangles_of(here.first).importance(at);
+    const LightLanes::Sums sums = importance_in(here.first, at);
     const std::uint32_t lane = place - first_place(here.first);
     return sums[lane + 1] > sums[lane] ? probability * share(sums, lane) : 0.0;
 }
@@ -133,7 +138,7 @@ double TriangleTree::probability(const LightReceiver& receiver, std::uint32_t tr
 std::uint64_t TriangleTree::memory_bytes() const
 {
     return (order_.capacity() + place_.capacity()) * sizeof(std::uint32_t) +
-           nodes_.capacity() * sizeof(Node) + by_area_.memory_bytes();
+           nodes_.capacity() * sizeof(Node) + kept_.capacity() * sizeof(LightLanes) + by_area_.memory_bytes();
 }
 
 } // namespace plumb
