@@ -94,7 +94,7 @@ def details(found, scene):
     lines = [
         f"Seconds to RMSE {rmse:.3g} ({100 * rmse / scene['reference_mean']:.2g} % of the mean), as {best['mse']} has it, "
         f"to relMSE {targets['relmse']:.2g}, as {best['relmse']} has it, and to trimmed RMSE {targets['trimmed'] ** 0.5:.3g} "
-        f"(without the 2 % of pixels where it is largest), as {best['trimmed']} has it.",
+        f"(without the 2 % of pixels where the reference is noisiest), as {best['trimmed']} has it.",
         "",
         "| | load s | Mpaths/s | Mrays/s | Mpaths/CPU s | rays/path | MB | agrees | to RMSE s | and load | times best peer "
         "| to relMSE s | times best peer | to trimmed RMSE s | times best peer |",
