@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "image/lean/exr_header.h"
 
+#include "image/chromaticities.h"
 #include "image/image_limits.h"
 #include "image/lean/raster.h"
 
@@ -11,6 +12,7 @@
 #include <OpenEXR/ImfFloatVectorAttribute.h>
 #include <OpenEXR/ImfIntAttribute.h>
 #include <OpenEXR/ImfMatrixAttribute.h>
+#include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/ImfVecAttribute.h>
 #include <fmt/format.h>
@@ -104,6 +106,8 @@ std::optional<MetadataValue> value_of(const Imf::Attribute& attribute)
 void insert(Imf::Header& header, const std::string& name, const std::vector<float>& values)
 {
     const float* const v = values.data();
+    if (same_name(name, chromaticities_name) && values.size() == srgb_chromaticities.size())
+        return Imf::addChromaticities(header, {{v[0], v[1]}, {v[2], v[3]}, {v[4], v[5]}, {v[6], v[7]}});
     switch (values.size()) {
     case 0: return;
     case 2: return header.insert(name, Imf::V2fAttribute({v[0], v[1]}));

@@ -212,7 +212,10 @@ std::vector<unsigned char> write_jpeg(const ImageFile& image)
     jpeg_compress_struct* const info = &writer.info;
     const PixelRect data = image.data;
     const int quality = quality_of(image.format);
-    const std::vector<unsigned char> exif = exif_of(image.metadata);
+    // What the format says of itself stands for what the image says.
+    Metadata texts = image.metadata;
+    for (const auto& [name, value] : image.format) put(texts, name, value);
+    const std::vector<unsigned char> exif = exif_of(texts);
     const Bytes marker = exif;
     attempt(writer.errors, [=] {
         info->image_width = static_cast<JDIMENSION>(data.width);
