@@ -180,11 +180,11 @@ TEST_CASE("textures that are built side by side say each thing once, in the orde
 
     // Files count, and the memory that their images take.
     const TempDirectory directory;
-    std::string bytes = "P6 2 2 255\n" + std::string(12, 'z');
-    for (const char* name : {"a.ppm", "b.ppm"}) directory.write(name, bytes);
+    const std::string tga_of_2x2("\0\0\2\0\0\0\0\0\0\0\0\0\2\0\2\0\30\40", 18); // 24 bits a pixel
+    for (const char* name : {"a.tga", "b.tga"}) directory.write(name, tga_of_2x2 + std::string(12, 'z'));
     const LoadedScene loaded = load_scene(
-        directory.write("scene.xml", start + "<bsdf type='diffuse' id='a'>" + texture("a.ppm") +
-                                         "</bsdf><bsdf type='diffuse' id='b'>" + texture("b.ppm") +
+        directory.write("scene.xml", start + "<bsdf type='diffuse' id='a'>" + texture("a.tga") +
+                                         "</bsdf><bsdf type='diffuse' id='b'>" + texture("b.tga") +
                                          "</bsdf><shape type='sphere'><ref id='a'/></shape></scene>"));
     CHECK(loaded.inputs.size() == 3);
     CHECK(loaded.texture_bytes == 2 * 12);
