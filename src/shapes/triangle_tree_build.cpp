@@ -178,9 +178,11 @@ TriangleTree::TriangleTree(const MeshData& mesh)
 
     Builder build(*this);
     nodes_.shrink_to_fit();
-    if (clusters_ <= most_kept)
+    if (clusters_ <= most_kept) {
+        kept_.reserve(clusters_);
         for (std::uint32_t cluster = 0; cluster < clusters_; ++cluster)
             kept_.push_back(triangles_of(cluster));
+    }
     std::vector<double> areas;
     areas.reserve(count);
     for (const std::uint32_t triangle : order_) areas.push_back(facet_of(mesh, triangle).area);
