@@ -7,6 +7,8 @@
 #include "plumb/model/camera.h"
 #include "plumb/sampling/sampling.h"
 
+#include <array>
+
 namespace plumb {
 /// A pinhole or thin-lens camera. Camera space: +z looks forward, +y is up, +x is left. With a lens, points at the
 /// focal distance along +z are sharp.
@@ -89,7 +91,45 @@ public:
     const Transform& to_world() const override { return to_world_; }
     bool sample_border() const override { return film_.sample_border; }
 
+    // Of the part beyond a plane close before the pinhole: its corners are those of the box that lie there, and where the box's
+    // edges cross the plane.
+    std::optional<RasterBounds> bounds_of(const Box3f& world) const override
+    {
+        if (lens_radius_ > 0.0) return std::nullopt;
+        constexpr double nearest = 1e-3; // of the distance to the box's farthest corner
+        const Transform to_camera = to_world_.inverse();
+        std::array<Vec3d, 8> corners;
+        double farthest = 0.0;
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            corners[i] = to_camera.point(Vec3d(corner(world, i)));
+            farthest = std::max(farthest, length(corners[i]));
+        }
+        const double plane = nearest * farthest;
+        RasterBounds bounds;
+        const auto see = [&](const Vec3d& p) {
+            bounds.add(Vec2f(static_cast<float>((half_width_ - p.x / p.z) / pixel_width_),
+                             static_cast<float>((half_height_ - p.y / p.z) / pixel_height_)) -
+                       shift_);
+        };
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            const Vec3d& p = corners[i];
+            if (p.z >= plane) see(p);
+            for (std::size_t axis = 1; axis < corners.size(); axis *= 2) {
+                const Vec3d& q = corners[i ^ axis];
+                if (p.z >= plane && q.z < plane) see(p + (q - p) * ((p.z - plane) / (p.z - q.z)));
+            }
+        }
+        return bounds;
+    }
+
 private:
+    // Bit k of its number: whether it is at the box's upper end along axis k.
+    static Vec3f corner(const Box3f& box, std::size_t number)
+    {
+        return {number & 1 ? box.max.x : box.min.x, number & 2 ? box.max.y : box.min.y,
+                number & 4 ? box.max.z : box.min.z};
+    }
+
     void read_lens(const Params& params)
     {
         lens_radius_ = params.number("lensRadius", 0.f, Range::at_least(0.0));

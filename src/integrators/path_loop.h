@@ -117,10 +117,10 @@ float weight_behind_delta_bounces(const Technique& technique, const typename Sta
         return 1.f;
 }
 
-// What the path's last ray sees, if the technique counts it.
+// What the path's last ray sees, if the technique counts it. share: how much of it counts here.
 template <class Technique>
 Color emitted(const Technique& technique, Tracer& tracer, const typename StateOf<Technique>::Type& path,
-              const Ray& ray, const std::optional<SurfacePoint>& hit)
+              const Ray& ray, const std::optional<SurfacePoint>& hit, float share)
 {
     if ((hit && !hit->emitter) || !technique.counts_emission(path) || sees_no_emitters(technique, path))
         return Color(0.f);
@@ -128,7 +128,7 @@ Color emitted(const Technique& technique, Tracer& tracer, const typename StateOf
     if (light.radiance.is_black()) return Color(0.f);
     const float weight = path.delta ? weight_behind_delta_bounces(technique, path)
                                     : technique.emission_weight(path, light.pdf);
-    const Color contribution = path.throughput * light.radiance * weight;
+    const Color contribution = path.throughput * light.radiance * (weight * share);
     if (tracer.logging()) tracer.log_contribution(PathEvent::Kind::emission, "emission", contribution);
     return contribution;
 }
@@ -186,7 +186,8 @@ Color follow_path(const Technique& technique, Tracer& tracer, Sampler& sampler,
         const RayKind kind = surfaces == 0 ? RayKind::camera : RayKind::bounce;
         const auto hit = sees_no_emitters(technique, path) ? tracer.intersect_behind_emitters(ray, kind)
                                                            : tracer.intersect(ray, kind);
-        result += emitted(technique, tracer, path, ray, hit);
+        const float share = hit && kind == RayKind::camera ? tracer.share_of_first_emission() : 1.f;
+        result += emitted(technique, tracer, path, ray, hit, share);
         if (tracer.light_notes()) [[unlikely]]
             note_emission(tracer, path, bounces, result, hit);
         if (!hit) return end("the path has left the scene"), result;

@@ -21,6 +21,9 @@ namespace plumb {
 /// a surface also looks into directions that they came from, weighted by multiple importance sampling like the
 /// others: the image converges to the same with and without. Where nothing is learnt, nothing changes.
 ///
+/// Where the camera sees the outline of a lamp, most of the noise is whether a sample meets it. There each sample looks for the
+/// lamp with rays of its own, which are followed no further.
+///
 ///     maxDepth    integer   surface bounces: 0 shows emitters only, 1 direct light, -1 everything   (default -1)
 ///     rrDepth     integer   bounces before Russian roulette starts   (default 3)
 ///     countPasses   boolean   whether passing straight through a mask costs a bounce, of shadow rays as well   (default false)
@@ -29,6 +32,8 @@ namespace plumb {
 ///     heuristic   string    how the two share: power or balance   (default power)
 ///     candidates  integer   emitter samples at the first glossy surface of a path; one of them is followed, chosen by what it
 ///                           would add if nothing were in the way   (default 4)
+///     outlineRays   integer   rays more of each sample that look for a lamp in pixels which its outline crosses; 0: none
+///                           (default 8)
 ///     guide       boolean   whether caustics are also looked for in directions learnt from photons   (default true)
 ///
 ///         <integrator type="path_mis">
@@ -39,6 +44,7 @@ public:
     explicit PathMis(const Params& params)
         : estimator_(PathEstimator::LightStrategy::both, PathLimits(params), heuristic_of(params),
                      static_cast<int>(params.integer("candidates", 4, Range::closed(1, 64)))),
+          outline_rays_(static_cast<int>(params.integer("outlineRays", 8, Range::closed(0, 64)))),
           may_guide_(params.boolean("guide", true) && estimator_.max_depth() != 0 &&
                      estimator_.max_depth() != 1)
     {}
@@ -64,9 +70,11 @@ public:
 
     std::string bias() const override { return estimator_.bias(); }
     bool notes_light() const override { return true; }
+    int outline_rays() const override { return estimator_.hides_emitters() ? 0 : outline_rays_; }
 
 private:
     PathEstimator estimator_;
+    int outline_rays_;
     bool may_guide_;
     mutable std::once_flag trained_;
     mutable std::optional<CausticGuide> guide_;

@@ -189,12 +189,12 @@ std::uint32_t LightSplitter::layer_of(const Placed& placed, const LightNote& not
            (note.emitter == environment_index ? layer_of_emitter_.back() : layer_of_emitter_[note.emitter]);
 }
 
-std::span<const LightShare> LightSplitter::shares(const LightNotes& notes, const Color& scale,
-                                                  const Color& radiance, std::vector<LightShare>& room) const
+std::span<const LightShare> LightSplitter::shares(const LightNotes& notes, const Color& radiance,
+                                                  std::vector<LightShare>& room) const
 {
     room.clear();
     for (const LightNote& note : notes.all()) {
-        LightShare share{note.sum * scale, {}};
+        LightShare share{note.sum, {}};
         for (std::size_t i = 0; i < splits_.size(); ++i) share.layers[i] = layer_of(splits_[i], note);
         room.push_back(share);
     }

@@ -7,9 +7,8 @@
 #include "plumb/base/error.h"
 #include "plumb/model/guide.h"
 #include "plumb/render/adaptive.h"
-#include "plumb/scene/tracer.h"
-#include "render/film_edge.h"
 #include "render/sample_layers.h"
+#include "render/sample_taker.h"
 #include "render/tiles.h"
 
 #include <atomic>
@@ -34,40 +33,15 @@ constexpr std::uint64_t samples_per_pass = 16;
 // Of an adaptive rendering, whose later passes have few pixels.
 constexpr std::uint64_t most_samples_per_pass = 1024;
 
-struct SampleTaken {
-    Color radiance;
-    Color scale; // of what the integrator found
-    Vec2f raster;
-    float weight;
-};
-
-// One sample: a pure function of job, seed, pixel and index.
-SampleTaken take_sample(const RenderJob& job, const FilmEdge& edge, Tracer& tracer, Sampler& sampler,
-                        std::uint64_t seed, Vec2i pixel, std::uint64_t index)
-{
-    sampler.start(seed, pixel, index);
-    const Vec2f u_filter = sampler.next_2d();
-    const Vec2f u_lens = sampler.next_2d();
-    const FilterSample place = edge.sample(pixel, u_filter);
-    const Vec2f raster(static_cast<float>(pixel.x) + 0.5f + place.offset.x,
-                       static_cast<float>(pixel.y) + 0.5f + place.offset.y);
-    const CameraRay camera_ray = job.camera->sample_ray(raster, u_lens);
-    Color radiance = job.integrator->radiance(tracer, sampler, camera_ray.ray) * camera_ray.weight;
-    if (tracer.take_failure()) radiance = Color(std::numeric_limits<float>::quiet_NaN());
-    return {radiance, camera_ray.weight, raster, place.weight};
-}
-
 // What one thread needs and gathers.
 struct Worker {
-    Worker(const RenderJob& job, std::uint64_t total, const SampleLayers& wanted)
-        : layers(wanted), tracer(*job.scene, layers.notes()), sampler(job.sampler->clone(total))
+    Worker(const RenderJob& job, const FilmEdge& edge, Outlines& outlines, std::uint64_t total,
+           const SampleLayers& wanted)
+        : layers(wanted), taker(job, edge, outlines, total, layers.notes())
     {}
-    Worker(const Worker&) = delete; // the tracer points to it
-    Worker& operator=(const Worker&) = delete;
 
     SampleLayers::Meter layers; // of the sample being taken
-    Tracer tracer;
-    std::unique_ptr<Sampler> sampler;
+    SampleTaker taker;          // which points to them
     LeftOut left_out;
     std::vector<double> pilot; // of the pixel that decides
 };
@@ -277,8 +251,10 @@ bool Rendering::take(const SampleSet& wanted, const ProgressReport& progress, co
     Reporter reporter(progress, rule ? state_.samples() : (wanted & state_.taken).count(), wanted.count());
     if (rule) expect_plans(state_.film, wanted, total, reporter);
     const SampleLayers layers(job_, options_);
-    oneapi::tbb::enumerable_thread_specific<Worker> workers([&] { return Worker(job_, total, layers); });
     const FilmEdge edge(*job_.filter, *job_.camera);
+    Outlines outlines(job_, state_.film.window(), options_.threads);
+    oneapi::tbb::enumerable_thread_specific<Worker> workers(
+        [&] { return Worker(job_, edge, outlines, total, layers); });
     std::atomic<bool> paused = false;
 
     // Where the pixel's samples of the block end. Below the least number of samples there is nothing to decide.
@@ -288,9 +264,9 @@ bool Rendering::take(const SampleSet& wanted, const ProgressReport& progress, co
         if (plan == 0) {
             worker.pilot.resize(rule->pilot_size());
             for (std::uint64_t i = 0; i < worker.pilot.size(); ++i) {
-                if (!layers.empty()) worker.layers.start(worker.tracer.counts());
-                worker.pilot[i] = pilot_value(take_sample(job_, edge, worker.tracer, *worker.sampler,
-                                                          options_.seed, pixel, first_pilot_sample + i));
+                if (!layers.empty()) worker.layers.start(worker.taker.counts());
+                worker.pilot[i] =
+                    pilot_value(worker.taker.take(options_.seed, pixel, first_pilot_sample + i));
             }
             plan = rule->samples(worker.pilot);
             state_.film.set_plan(pixel, static_cast<std::uint32_t>(plan));
@@ -303,7 +279,7 @@ bool Rendering::take(const SampleSet& wanted, const ProgressReport& progress, co
     const auto take_block = [&](const SampleBlock& block) {
         const FlushDenormals flush;
         Worker& worker = workers.local();
-        const std::uint64_t rays_before = worker.tracer.counts().total();
+        const std::uint64_t rays_before = worker.taker.counts().total();
         const PixelRect& tile = block.pixels;
         SampleBlock done = block;
         std::uint64_t samples = 0;
@@ -317,15 +293,14 @@ bool Rendering::take(const SampleSet& wanted, const ProgressReport& progress, co
                 const std::uint64_t last = end_of_pixel(worker, {x, y}, block);
                 samples += last - block.first;
                 for (std::uint64_t index = block.first; index < last; ++index) {
-                    if (!layers.empty()) worker.layers.start(worker.tracer.counts());
-                    const SampleTaken sample =
-                        take_sample(job_, edge, worker.tracer, *worker.sampler, options_.seed, {x, y}, index);
+                    if (!layers.empty()) worker.layers.start(worker.taker.counts());
+                    const SampleTaken sample = worker.taker.take(options_.seed, {x, y}, index);
                     const SampleStatus status =
-                        layers.empty() ? state_.film.add({x, y}, sample.radiance, sample.weight)
-                                       : state_.film.add({x, y}, sample.radiance, sample.weight,
-                                                         worker.layers.measure(sample.radiance, sample.scale,
-                                                                               worker.tracer.counts()),
-                                                         index);
+                        layers.empty()
+                            ? state_.film.add({x, y}, sample.radiance, sample.weight)
+                            : state_.film.add({x, y}, sample.radiance, sample.weight,
+                                              worker.layers.measure(sample.radiance, worker.taker.counts()),
+                                              index);
                     if (status != SampleStatus::accepted)
                         worker.left_out.add({{x, y}, index, sample.radiance, status});
                 }
@@ -333,7 +308,7 @@ bool Rendering::take(const SampleSet& wanted, const ProgressReport& progress, co
             done.pixels.height = y - tile.y + 1;
         }
         if (tile_report && done.pixels.height > 0) tile_report(state_.film, done.pixels);
-        reporter.add(samples, worker.tracer.counts().total() - rays_before);
+        reporter.add(samples, worker.taker.counts().total() - rays_before);
         return done;
     };
 
@@ -345,7 +320,7 @@ bool Rendering::take(const SampleSet& wanted, const ProgressReport& progress, co
         state_.taken = state_.taken | SampleSet(work);
     }
     for (const Worker& worker : workers) {
-        state_.rays += worker.tracer.counts();
+        state_.rays += worker.taker.counts();
         state_.left_out += worker.left_out;
     }
     state_.seconds += reporter.seconds();
@@ -372,10 +347,10 @@ ReplayedSample replay(const RenderJob& job, const RenderOptions& options, Vec2i 
     train(*job.integrator, *job.scene, options.threads);
     const FlushDenormals flush;
     ReplayedSample replayed;
-    Tracer tracer(*job.scene, {.log = &replayed.log});
-    const std::unique_ptr<Sampler> sampler = job.sampler->clone(total);
     const FilmEdge edge(*job.filter, *job.camera);
-    const SampleTaken sample = take_sample(job, edge, tracer, *sampler, options.seed, pixel, sample_index);
+    Outlines outlines(job, {pixel.x, pixel.y, 1, 1}, options.threads);
+    SampleTaker taker(job, edge, outlines, total, {.log = &replayed.log});
+    const SampleTaken sample = taker.take(options.seed, pixel, sample_index);
     Film judge({pixel.x, pixel.y, 1, 1}, size.x, size.y);
     replayed.value = sample.radiance;
     replayed.raster = sample.raster;

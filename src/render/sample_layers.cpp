@@ -47,10 +47,10 @@ void SampleLayers::Meter::start(const RayCounts& counts)
     rays_before_ = counts.total();
 }
 
-LayerSample SampleLayers::Meter::measure(const Color& radiance, const Color& scale, const RayCounts& counts)
+LayerSample SampleLayers::Meter::measure(const Color& radiance, const RayCounts& counts)
 {
     LayerSample sample = layers_.aovs_.measure({first_, radiance, counts.total() - rays_before_}, values_);
-    sample.shares = layers_.splitter_.shares(light_, scale, radiance, shares_);
+    sample.shares = layers_.splitter_.shares(light_, radiance, shares_);
     sample.families = layers_.families_;
     return sample;
 }

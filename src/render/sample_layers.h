@@ -21,8 +21,8 @@ public:
         explicit Meter(const SampleLayers& layers) : layers_(layers) {}
         Tracer::Notes notes(); // for the tracer
         void start(const RayCounts& counts);
-        // scale: as of LightSplitter. What it returns is valid until the next start().
-        LayerSample measure(const Color& radiance, const Color& scale, const RayCounts& counts);
+        // What it returns is valid until the next start().
+        LayerSample measure(const Color& radiance, const RayCounts& counts);
 
     private:
         const SampleLayers& layers_;

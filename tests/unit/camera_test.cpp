@@ -100,6 +100,43 @@ TEST_CASE("a thin lens is sharp in its plane of focus", "[unit][camera]")
     CHECK(largest > 0.2f);
 }
 
+TEST_CASE("what a pinhole camera says of a box holds all that it sees of it", "[unit][camera]")
+{
+    test::TestRandom random(3);
+    const auto between = [&](float low, float high) { return low + (high - low) * random.next_1d(); };
+    for (int i = 0; i < 500; ++i) {
+        auto params = camera_params()
+                          .boolean("mirrored", i % 2 == 0)
+                          .number("principalPointOffsetX", static_cast<double>(between(-0.4f, 0.4f)))
+                          .number("principalPointOffsetY", static_cast<double>(between(-0.4f, 0.4f)))
+                          .transform("toWorld", *Transform::look_at(Vec3d(between(-2, 2), 1.0, between(3, 5)),
+                                                                    Vec3d(0.0), Vec3d(0, 1, 0)));
+        if (i % 3 == 0)
+            params.integer("cropOffsetX", 30)
+                .integer("cropOffsetY", 20)
+                .integer("cropWidth", 60)
+                .integer("cropHeight", 50);
+        const auto camera = make(params);
+        const Vec2f raster(between(-100.f, 300.f), between(-100.f, 200.f));
+        const Vec3f seen = camera->sample_ray(raster, lens_centre).ray.at(between(0.5f, 10.f));
+        const Vec3f size(between(0.f, 3.f), between(0.f, 3.f), between(0.f, 12.f));
+        const Vec3f part(random.next_1d(), random.next_1d(), random.next_1d());
+        const Vec3f low = seen - size * part; // boxes before, beside and around the camera
+        const auto bounds = camera->bounds_of(Box3f(low, low + size));
+        REQUIRE(bounds);
+        CAPTURE(i, raster.x, raster.y, bounds->min.x, bounds->max.x, bounds->min.y, bounds->max.y);
+        CHECK(raster.x >= bounds->min.x - 0.01f);
+        CHECK(raster.x <= bounds->max.x + 0.01f);
+        CHECK(raster.y >= bounds->min.y - 0.01f);
+        CHECK(raster.y <= bounds->max.y + 0.01f);
+    }
+    const auto camera = make(camera_params());
+    const auto behind = camera->bounds_of(Box3f(Vec3f(-1.f, -1.f, -5.f), Vec3f(1.f, 1.f, -4.f)));
+    REQUIRE(behind);
+    CHECK_FALSE(behind->min.x <= behind->max.x);
+    CHECK_FALSE(make(camera_params().number("lensRadius", 0.1))->bounds_of(Box3f(Vec3f(0.f), Vec3f(1.f))));
+}
+
 TEST_CASE("cameras refuse what makes no image", "[unit][camera]")
 {
     const auto complaints = [](const ParamsBuilder& params) {

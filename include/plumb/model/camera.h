@@ -7,6 +7,9 @@
 #include "plumb/math/ray.h"
 #include "plumb/math/transform.h"
 
+#include <algorithm>
+#include <optional>
+
 namespace plumb {
 
 // Conventions. raster: continuous pixel coordinates; (0, 0) is the upper left corner of the full image, pixel
@@ -17,6 +20,18 @@ struct CameraRay {
     Color weight;
 };
 
+// A part of the film's plane, in raster coordinates; empty where min exceeds max.
+struct RasterBounds {
+    Vec2f min{infinity};
+    Vec2f max{-infinity};
+
+    void add(const Vec2f& raster)
+    {
+        min = {std::min(min.x, raster.x), std::min(min.y, raster.y)};
+        max = {std::max(max.x, raster.x), std::max(max.y, raster.y)};
+    }
+};
+
 class Camera {
 public:
     virtual ~Camera() = default;
@@ -25,6 +40,9 @@ public:
     virtual const Transform& to_world() const = 0;
     // Whether filters reach beyond the edge of the image; else they are cut there, and what is left of them counts as all.
     virtual bool sample_border() const { return true; }
+    // Where all of the box is seen, if anything is in front of it or not: no more than a guess for what lies close before the
+    // camera. Nothing where that is not known.
+    virtual std::optional<RasterBounds> bounds_of(const Box3f& /*world*/) const { return std::nullopt; }
 };
 
 } // namespace plumb

@@ -32,6 +32,10 @@ public:
     // Whether it notes each contribution to a sample (scene/light_notes.h), so that layers can be of parts of the light.
     virtual bool notes_light() const { return false; }
 
+    // Rays more that each sample is to send after lamps where their outlines are seen (render/outlines.h). Above 0 only
+    // where radiance() counts of the emission of the first surface what the tracer says (share_of_first_emission()).
+    virtual int outline_rays() const { return 0; }
+
     // Whether a scene without lamps is black.
     virtual bool needs_lamps() const { return true; }
 };

@@ -47,8 +47,8 @@ public:
     LightSplitter(std::span<const LightSplit> splits, const Scene& scene, std::size_t first_layer);
     bool empty() const { return splits_.empty(); }
 
-    // radiance: of the sample; scale: what was done to what the integrator found, and noted. shares: room that is overwritten.
-    std::span<const LightShare> shares(const LightNotes& notes, const Color& scale, const Color& radiance,
+    // radiance: of the sample. room: is overwritten.
+    std::span<const LightShare> shares(const LightNotes& notes, const Color& radiance,
                                        std::vector<LightShare>& room) const;
 
 private:
