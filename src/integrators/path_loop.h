@@ -12,6 +12,7 @@
 //     std::optional<BsdfSample> scatter(Sampler&, const Vertex&) const   where the path goes on
 //     float survival(const PathState&, int bounces) const       the chance that it does; 1: no roulette
 //     bool hides_emitters() const                               optional: does the camera see through emitters?
+//     bool sees_only_lamps                                      optional, static: does light from outside the scene not count?
 //
 // and, all or none, of techniques that look for emitters behind delta bounces by other means, too (guided_path.h):
 //
@@ -28,6 +29,9 @@
 
 namespace plumb {
 
+// Bounces after which the camera sees a lamp (PathState::sees).
+inline constexpr int longest_look = 8;
+
 // What a path remembers of its way.
 struct PathState {
     explicit PathState(const Vec3f& camera) : receiver{camera} {}
@@ -41,6 +45,10 @@ struct PathState {
     float pdf = 0.f;        // of the last direction, unless delta
     bool delta = true;   // nothing but following the path finds what it sees: camera rays and delta bounces
     bool is_view = true; // the camera still looks along it, perhaps through panes that do not bend it
+    // Whether what it meets is seen by the camera: after delta bounces, or a glossy one that is the last; and after how many.
+    bool sees = true;
+    bool sees_by_gloss = false;
+    int sees_after = 0;
     bool is_chosen = false;       // some direction of it was chosen among many
     bool has_glossy = false;      // some vertex of it was glossy
     bool is_first_glossy = false; // and the last is the first of those
@@ -59,6 +67,9 @@ struct PathState {
         delta = next.is_delta();
         is_view = is_view && next.is_delta() && next.is_transmission() && vertex.goes_straight(next);
         is_chosen = is_chosen || !next.is_delta();
+        sees =
+            sees && !sees_by_gloss && (next.is_delta() || vertex.is_glossy()) && ++sees_after <= longest_look;
+        sees_by_gloss = !next.is_delta();
         is_first_glossy = would_be_first_glossy(vertex);
         has_glossy = has_glossy || is_first_glossy;
     }
@@ -117,18 +128,22 @@ float weight_behind_delta_bounces(const Technique& technique, const typename Sta
         return 1.f;
 }
 
-// What the path's last ray sees, if the technique counts it. share: how much of it counts here.
+// What the path's last ray sees, if the technique counts it.
 template <class Technique>
 Color emitted(const Technique& technique, Tracer& tracer, const typename StateOf<Technique>::Type& path,
-              const Ray& ray, const std::optional<SurfacePoint>& hit, float share)
+              const Ray& ray, const std::optional<SurfacePoint>& hit)
 {
+    if (tracer.leaves_out_seen_lamps() && path.sees && hit) [[unlikely]]
+        return Color(0.f);
     if ((hit && !hit->emitter) || !technique.counts_emission(path) || sees_no_emitters(technique, path))
         return Color(0.f);
+    if constexpr (requires { Technique::sees_only_lamps; })
+        if (!hit) return Color(0.f);
     const EmitterValue light = tracer.scene().emission(path.receiver, ray.direction, hit ? &*hit : nullptr);
     if (light.radiance.is_black()) return Color(0.f);
     const float weight = path.delta ? weight_behind_delta_bounces(technique, path)
                                     : technique.emission_weight(path, light.pdf);
-    const Color contribution = path.throughput * light.radiance * (weight * share);
+    const Color contribution = path.throughput * light.radiance * weight;
     if (tracer.logging()) tracer.log_contribution(PathEvent::Kind::emission, "emission", contribution);
     return contribution;
 }
@@ -186,8 +201,7 @@ Color follow_path(const Technique& technique, Tracer& tracer, Sampler& sampler,
         const RayKind kind = surfaces == 0 ? RayKind::camera : RayKind::bounce;
         const auto hit = sees_no_emitters(technique, path) ? tracer.intersect_behind_emitters(ray, kind)
                                                            : tracer.intersect(ray, kind);
-        const float share = hit && kind == RayKind::camera ? tracer.share_of_first_emission() : 1.f;
-        result += emitted(technique, tracer, path, ray, hit, share);
+        result += emitted(technique, tracer, path, ray, hit);
         if (tracer.light_notes()) [[unlikely]]
             note_emission(tracer, path, bounces, result, hit);
         if (!hit) return end("the path has left the scene"), result;

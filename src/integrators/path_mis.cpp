@@ -3,6 +3,7 @@
 // [1] Veach 1997, "Robust Monte Carlo Methods for Light Transport Simulation", section 9.2
 
 #include "integrators/guided_path.h"
+#include "integrators/look_path.h"
 #include "model/plugin.h"
 #include "plumb/model/integrator.h"
 
@@ -21,8 +22,8 @@ namespace plumb {
 /// a surface also looks into directions that they came from, weighted by multiple importance sampling like the
 /// others: the image converges to the same with and without. Where nothing is learnt, nothing changes.
 ///
-/// Where the camera sees the outline of a lamp, most of the noise is whether a sample meets it. There each sample looks for the
-/// lamp with rays of its own, which are followed no further.
+/// Where the camera sees the outline of a lamp, directly, in a mirror or in a surface nearly as smooth, most of the noise is
+/// whether a sample meets the lamp. There each sample looks for it with rays of its own, which are followed no further.
 ///
 ///     maxDepth    integer   surface bounces: 0 shows emitters only, 1 direct light, -1 everything   (default -1)
 ///     rrDepth     integer   bounces before Russian roulette starts   (default 3)
@@ -32,7 +33,7 @@ namespace plumb {
 ///     heuristic   string    how the two share: power or balance   (default power)
 ///     candidates  integer   emitter samples at the first glossy surface of a path; one of them is followed, chosen by what it
 ///                           would add if nothing were in the way   (default 4)
-///     outlineRays   integer   rays more of each sample that look for a lamp in pixels which its outline crosses; 0: none
+///     outlineRays   integer   how many times each sample looks for a lamp where its outline is seen; 0: not at all
 ///                           (default 8)
 ///     guide       boolean   whether caustics are also looked for in directions learnt from photons   (default true)
 ///
@@ -71,6 +72,10 @@ public:
     std::string bias() const override { return estimator_.bias(); }
     bool notes_light() const override { return true; }
     int outline_rays() const override { return estimator_.hides_emitters() ? 0 : outline_rays_; }
+    Color look(Tracer& tracer, Sampler& sampler, const Ray& ray) const override
+    {
+        return LookPath(estimator_).look(tracer, sampler, ray);
+    }
 
 private:
     PathEstimator estimator_;

@@ -3,15 +3,12 @@
 
 // What the camera sees of lamps, in the pixels that their outlines cross.
 //
-// There a sample meets a lamp or does not, and a lamp is far brighter than what is around it: a few pixels have most of an
-// image's squared error. In them, the emission E of the surface that the camera's ray meets is a control variate [1]: a
-// sample's value L becomes
-//     L - c E + c 1/k sum_j E_j,
-// where the E_j are what k more rays of the same pixel meet, which are followed no further. Its mean is that of L, whatever
-// c is. The variance is least where c = Cov(L, E) / Var(E): one, but for what is seen of other light on the lamp and beside it. Rays
-// of fixed places find the outlines, and a few fixed samples choose c; neither is in the image.
+// There a sample meets a lamp or does not, and the lamp is far brighter than what is around it: a few pixels have most of an
+// image's squared error. In them, the part V of a sample's light that is a lamp seen directly, in mirrors or in highlights
+// (Integrator::look()) is left out of the sample and estimated apart, by the mean of several shorter samples of V alone [1].
+// Where that is, fixed samples decide that are not in the image, so that its mean remains what it was.
 //
-// [1] Owen 2013, "Monte Carlo theory, methods and examples", section 8.9
+// [1] Arvo and Kirk 1990, "Particle Transport and Image Synthesis", SIGGRAPH: splitting
 
 #include "plumb/render/render.h"
 #include "plumb/scene/tracer.h"
@@ -28,35 +25,37 @@ public:
     // For what it draws; total: samples per pixel. Null where there are no outlines.
     std::unique_ptr<Sampler> sampler(std::uint64_t total) const;
 
-    // c, in [0, 1]; 0: no more rays. Chosen when it is first asked for, by any thread. sampler: as above, and left changed.
-    float share(Vec2i pixel, const FilmEdge& edge, Sampler& sampler);
+    // Whether an outline crosses the pixel. Decided when it is first asked for, by any thread. sampler: as above, and left
+    // changed.
+    bool at(Vec2i pixel, const FilmEdge& edge, Sampler& sampler);
 
-    // c times the mean of what the rays of a sample of the pixel meet; noted and counted as what the camera sees.
-    Color look(float share, std::uint64_t seed, Vec2i pixel, std::uint64_t index, const FilmEdge& edge,
-               Sampler& sampler, Tracer& tracer) const;
+    // V of a sample. tracer: notes and counts.
+    Color look(std::uint64_t seed, Vec2i pixel, std::uint64_t index, const FilmEdge& edge, Sampler& sampler,
+               Tracer& tracer) const;
 
 private:
-    // Luminances of lamps at the places of a pixel.
+    // Luminances of V.
     struct Range {
         float least = 0.f;
         float most = 0.f;
     };
+    enum class Answer : std::uint8_t { unknown, no, yes };
 
-    // Where lamps may be seen, for each pixel of around_.
-    std::vector<bool> candidates() const;
-    void find(const std::vector<bool>& candidates, int threads);
-    Range glance(Vec2i pixel, Tracer& tracer) const;
+    // At how many places each pixel of around_ is looked at.
+    std::vector<std::uint8_t> places() const;
+    void find(const std::vector<std::uint8_t>& places, int threads);
+    Range glance(Vec2i pixel, int places, Sampler& sampler, Tracer& tracer) const;
     // Over all pixels that the filter of this one may reach, and the next ones.
     Range range_about(Vec2i pixel) const;
-    float choose(const Range& range, Vec2i pixel, const FilmEdge& edge, Sampler& sampler) const;
+    bool is_bright(float lamp, Vec2i pixel, const FilmEdge& edge, Sampler& sampler) const;
 
     const RenderJob& job_;
     PixelRect window_;
-    std::uint64_t rays_; // of a sample
-    int reach_ = 0;      // pixels from the window to the edges of around_
+    std::uint64_t looks_; // of a sample
+    int reach_ = 0;       // pixels from the window to the edges of around_
     PixelRect around_;
-    std::vector<Range> ranges_; // of around_
-    std::vector<float> shares_; // of window_; empty: there are no outlines
+    std::vector<Range> ranges_;   // of around_
+    std::vector<Answer> answers_; // of window_; empty: there are no outlines
 };
 
 } // namespace plumb

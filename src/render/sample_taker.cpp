@@ -20,26 +20,30 @@ SampleTaker::SampleTaker(const RenderJob& job, const FilmEdge& edge, Outlines& o
       edge_(edge),
       outlines_(outlines),
       tracer_(*job.scene, notes),
+      look_tracer_(*job.scene, {.light = notes.light}),
       sampler_(job.sampler->clone(total)),
-      outline_sampler_(outlines.sampler(total))
+      look_sampler_(outlines.sampler(total))
 {}
 
 SampleTaken SampleTaker::take(std::uint64_t seed, Vec2i pixel, std::uint64_t index)
 {
     sampler_->start(seed, pixel, index);
     const CameraPlace place = draw_place(job_, edge_, pixel, *sampler_);
+    const bool looks = look_sampler_ && outlines_.at(pixel, edge_, *look_sampler_);
     Color seen(0.f);
-    if (outline_sampler_) {
-        const float share = outlines_.share(pixel, edge_, *outline_sampler_);
-        tracer_.set_share_of_first_emission(1.f - share);
-        if (share > 0.f) seen = outlines_.look(share, seed, pixel, index, edge_, *outline_sampler_, tracer_);
+    if (looks) {
+        seen = outlines_.look(seed, pixel, index, edge_, *look_sampler_, look_tracer_);
+        if (tracer_.logging())
+            tracer_.log_contribution(PathEvent::Kind::emission, "the mean of several looks for lamps", seen);
     }
+    tracer_.leave_out_seen_lamps(looks);
     const std::size_t noted = tracer_.noted_light();
     Color radiance = job_.integrator->radiance(tracer_, *sampler_, place.camera.ray);
     const auto in_image = [&](const Color& found) { return found * place.camera.weight + seen; };
     radiance = in_image(radiance);
     tracer_.change_noted_light(noted, in_image);
-    if (tracer_.take_failure()) radiance = Color(std::numeric_limits<float>::quiet_NaN());
+    const bool failed = tracer_.take_failure();
+    if (look_tracer_.take_failure() || failed) radiance = Color(std::numeric_limits<float>::quiet_NaN());
     return {radiance, place.raster, place.weight};
 }
 

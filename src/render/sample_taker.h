@@ -36,15 +36,20 @@ public:
     // A pure function of job, total, seed, pixel and index.
     SampleTaken take(std::uint64_t seed, Vec2i pixel, std::uint64_t index);
 
-    const RayCounts& counts() const { return tracer_.counts(); }
+    RayCounts counts() const
+    {
+        RayCounts all = tracer_.counts();
+        return all += look_tracer_.counts();
+    }
 
 private:
     const RenderJob& job_;
     const FilmEdge& edge_;
     Outlines& outlines_;
     Tracer tracer_;
+    Tracer look_tracer_; // of what looks for lamps: notes light, but no surfaces, and keeps no log
     std::unique_ptr<Sampler> sampler_;
-    std::unique_ptr<Sampler> outline_sampler_; // null: there are no outlines
+    std::unique_ptr<Sampler> look_sampler_; // null: there are no outlines
 };
 
 } // namespace plumb

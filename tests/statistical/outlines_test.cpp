@@ -26,7 +26,7 @@ struct View {
 };
 
 // A lamp that reflects, partly hidden; a second one before it, behind a pane that is half there; a small one far away; a wall
-// that they light, a mirror, and a sky.
+// that they light, a mirror, a plate nearly as smooth, a ball of glass, and a sky.
 LoadedScene scene(const View& view, int rays, const std::string& more = {})
 {
     return load_text(fmt::format(
@@ -49,6 +49,10 @@ LoadedScene scene(const View& view, int rays, const std::string& more = {})
     <emitter type="area"><color name="radiance" value="200,200,200"/></emitter></shape>
   <shape type="rectangle"><point name="center" value="0,-1.4,0"/><vector name="normal" value="0,1,0.2"/>
     <float name="width" value="4"/><float name="height" value="2"/><bsdf type="mirror"/></shape>
+  <shape type="rectangle"><point name="center" value="-2,0.5,-0.5"/><vector name="normal" value="1,0,0.8"/>
+    <float name="width" value="2"/><float name="height" value="2"/>
+    <bsdf type="roughconductor"><float name="alpha" value="0.03"/></bsdf></shape>
+  <shape type="sphere"><point name="center" value="0.3,1,0.8"/><float name="radius" value="0.4"/><bsdf type="dielectric"/></shape>
   <emitter type="environment"><color name="radiance" value="0.3,0.3,0.3"/></emitter>{}</scene>)",
         rays, view.sampler, view.camera, width, height, view.more, view.filter, more));
 }

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MIT
 """Errors of images, and what time a renderer would need for an error.
 
-MSE: the mean squared difference to the reference over pixels and channels. relMSE: the same over (reference^2 + 0.01),
-without the thousandth of pixels where it is largest, as a few fireflies may outweigh all else. Trimmed MSE: without the 2 % of
-pixels where the reference is noisiest, which are the edges of lamps in scenes that show some; to leave out those where the
-image errs most would be to choose by what is measured. The reference's own noise is subtracted from all.
+MSE: the mean squared difference to the reference over pixels and channels. relMSE: the same over (reference^2 + 0.01), without the
+thousandth of pixels where the reference's noise is largest in this measure, as a few fireflies may outweigh all else. Trimmed
+MSE: without the 2 % of pixels where the reference is noisiest, which are the edges of lamps in scenes that show some. To leave out
+those pixels where the image errs most would be to choose by what is measured. The reference's own noise is subtracted from all.
 """
 
 import statistics
@@ -40,8 +40,8 @@ def mean_without(largest, values, by):
 
 def errors(image, reference, variance):
     squared = (image - reference) ** 2 - variance
-    relative = squared / (reference**2 + OFFSET)
-    return {"mse": float(squared.mean()), "relmse": mean_without(LEFT_OUT, relative, relative),
+    unit = reference**2 + OFFSET
+    return {"mse": float(squared.mean()), "relmse": mean_without(LEFT_OUT, squared / unit, variance / unit),
             "trimmed": mean_without(TRIMMED, squared, variance)}  # fmt: skip
 
 

@@ -18,7 +18,7 @@ import images
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
-PLUMB = ROOT / "build" / "renderer"
+PLUMB = ROOT / "build" / "bench" / "renderer"
 
 
 class Failed(Exception):
@@ -112,10 +112,10 @@ class Plumb:
 
     def render(self, spp, seed):
         report = self.run(spp, seed)
-        rays = report["rays"]
+        paths = spp * report["resolution"][0] * report["resolution"][1]
         cpu_seconds = max(report["cpu_seconds"] - self.cpu_load, 0.001)
         return Run(images.read(self.file), report["seconds"]["rendering"], cpu_seconds, report["rays_per_second"],
-                   rays["total"] / rays["camera"])  # fmt: skip
+                   report["rays"]["total"] / paths)  # fmt: skip
 
     def close(self):
         pass

@@ -32,9 +32,12 @@ public:
     // Whether it notes each contribution to a sample (scene/light_notes.h), so that layers can be of parts of the light.
     virtual bool notes_light() const { return false; }
 
-    // Rays more that each sample is to send after lamps where their outlines are seen (render/outlines.h). Above 0 only
-    // where radiance() counts of the emission of the first surface what the tracer says (share_of_first_emission()).
+    // How many times each sample is to look for lamps where their outlines are seen (render/outlines.h). Above 0 only of
+    // integrators that have look().
     virtual int outline_rays() const { return 0; }
+    // An estimate of a part of radiance(): the light of lamps that the camera sees along `ray`, directly, by delta bounces, or
+    // by one glossy bounce after those. radiance() leaves this part out where the tracer says so.
+    virtual Color look(Tracer&, Sampler&, const Ray&) const { return Color(0.f); }
 
     // Whether a scene without lamps is black.
     virtual bool needs_lamps() const { return true; }

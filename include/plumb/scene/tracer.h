@@ -66,15 +66,6 @@ public:
             return intersect_watched(ray, kind);
         return scene_.intersect(ray);
     }
-    // The same for a camera ray beside the sample's path, of which nothing is noted.
-    std::optional<SurfacePoint> glance(const Ray& ray)
-    {
-        ++counts_.camera;
-        if (is_traceable(ray)) [[likely]]
-            return scene_.intersect(ray);
-        failed_ = true;
-        return std::nullopt;
-    }
     // The same as if objects that emit were not there.
     std::optional<SurfacePoint> intersect_behind_emitters(const Ray& ray, RayKind kind);
     bool occluded(const Ray& ray)
@@ -99,10 +90,9 @@ public:
     // Shadow rays that pass more surfaces than these are occluded (integrators that count passes); by default any number.
     void limit_passes(int most) { most_passes_ = most; }
 
-    // What fraction of the light of the surface that the camera's ray meets counts; what is left is found by other means
-    // (render/outlines.h).
-    float share_of_first_emission() const { return share_of_first_emission_; }
-    void set_share_of_first_emission(float share) { share_of_first_emission_ = share; }
+    // Whether the light of lamps that the camera sees (Integrator::look()) is left out, as it is found by other means.
+    bool leaves_out_seen_lamps() const { return leaves_out_seen_lamps_; }
+    void leave_out_seen_lamps(bool yes) { leaves_out_seen_lamps_ = yes; }
 
     // Whether a ray since the last call was not traceable (ray.h): it met nothing and saw nothing, and the sample that
     // asked for it must not count.
@@ -143,7 +133,7 @@ private:
     const Scene& scene_;
     RayCounts counts_;
     int most_passes_ = std::numeric_limits<int>::max();
-    float share_of_first_emission_ = 1.f;
+    bool leaves_out_seen_lamps_ = false;
     bool failed_ = false;
     std::vector<PathEvent>* log_;
     FirstSurfaces* first_;
