@@ -15,8 +15,11 @@
 namespace plumb {
 namespace {
 
-constexpr std::uint8_t places_at_lamps = 4; // of a pixel, where a lamp may be
-constexpr std::uint8_t places_at_mirrors = 1;
+constexpr std::uint8_t places_at_mirrors = 1; // of a pixel, where a smooth surface may be
+// Where a lamp may be: so many in all the pixels together, within these limits for each.
+constexpr float places_of_lamp = 512.f;
+constexpr std::uint8_t fewest_places_at_lamps = 4;
+constexpr std::uint8_t most_places = 64;
 constexpr std::uint64_t probes = 4;
 // Of an outline: V differs by more than this factor, and is at its brightest so many times the rest of the light.
 constexpr float least_contrast = 2.f;
@@ -40,6 +43,14 @@ std::size_t index_in(const PixelRect& window, Vec2i pixel)
 std::size_t pixels_of(const PixelRect& window)
 {
     return static_cast<std::size_t>(window.width) * static_cast<std::size_t>(window.height);
+}
+
+std::uint8_t places_for(const RasterBounds& lamp)
+{
+    const Vec2f size = lamp.max - lamp.min + Vec2f(1.f); // and the pixels at both ends
+    const float places = places_of_lamp / (size.x * size.y);
+    if (!(places > static_cast<float>(fewest_places_at_lamps))) return fewest_places_at_lamps;
+    return static_cast<std::uint8_t>(std::min(places, static_cast<float>(most_places)));
 }
 
 bool shows_lamps(const SceneObject& object)
@@ -67,9 +78,10 @@ std::vector<std::uint8_t> Outlines::places() const
     const auto clamped = [](float x, int first, int size) {
         return static_cast<int>(std::clamp(x, static_cast<float>(first), static_cast<float>(first + size)));
     };
-    const auto mark = [&](const Box3f& box, std::uint8_t count) {
-        const RasterBounds bounds =
-            job_.camera->bounds_of(box).value_or(RasterBounds{Vec2f(-infinity), Vec2f(infinity)});
+    const auto bounds_of = [&](const Box3f& box) {
+        return job_.camera->bounds_of(box).value_or(RasterBounds{Vec2f(-infinity), Vec2f(infinity)});
+    };
+    const auto mark = [&](const RasterBounds& bounds, std::uint8_t count) {
         const int left = clamped(std::floor(bounds.min.x), around_.x, around_.width);
         const int right = clamped(std::ceil(bounds.max.x), around_.x, around_.width);
         const int top = clamped(std::floor(bounds.min.y), around_.y, around_.height);
@@ -83,12 +95,13 @@ std::vector<std::uint8_t> Outlines::places() const
             }
     };
     for (const SceneObject& object : job_.scene->objects()) {
-        if (object.emitter) mark(object.shape->bounds(), places_at_lamps);
-        if (shows_lamps(object)) mark(object.shape->bounds(), places_at_mirrors);
+        const RasterBounds bounds = bounds_of(object.shape->bounds());
+        if (object.emitter) mark(bounds, places_for(bounds));
+        if (shows_lamps(object)) mark(bounds, places_at_mirrors);
     }
     for (const Instance& instance : job_.scene->instances())
         if (std::ranges::any_of(instance.group->objects(), shows_lamps))
-            mark(instance.bounds(), places_at_mirrors);
+            mark(bounds_of(instance.bounds()), places_at_mirrors);
     return places;
 }
 
@@ -99,7 +112,7 @@ void Outlines::find(const std::vector<std::uint8_t>& places, int threads)
     parallel_for(static_cast<std::size_t>(around_.height), threads, [&](std::size_t row) {
         const FlushDenormals flush;
         Tracer tracer(*job_.scene); // of its own: these rays are no sample's
-        const std::unique_ptr<Sampler> sampler = job_.sampler->clone(places_at_lamps);
+        const std::unique_ptr<Sampler> sampler = job_.sampler->clone(most_places);
         const int y = around_.y + static_cast<int>(row);
         for (int x = around_.x; x < around_.x + around_.width; ++x) {
             const std::size_t at = index_in(around_, {x, y});

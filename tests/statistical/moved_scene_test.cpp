@@ -143,7 +143,7 @@ TEST_CASE("the Cornell box by light sampling looks the same wherever it stands",
 TEST_CASE("Veach's plates look the same wherever they stand", "[statistical][shadow_ray]")
 {
     check_moves(MovableScenes({"veach_mi/parts/plates.xml"}), "veach_mi/veach_mis.xml", "path_mis",
-                Objects::emitters, 320, 0.1);
+                Objects::emitters, 640, 0.1);
 }
 
 TEST_CASE("Veach's plates look the same to a percent wherever they stand", "[statistical][shadow_ray][slow]")

@@ -130,6 +130,40 @@ TEST_CASE("rays that look for lamps change no mean", "[statistical][outlines]")
     }
 }
 
+TEST_CASE("rays that look for lamps change the mean of no layer", "[statistical][outlines]")
+{
+    const View view{"perspective", wide, "tent"};
+    const LoadedScene with = scene(view, 8);
+    const LoadedScene without = scene(view, 0);
+    const std::vector<std::string> splits{"depth:3", "technique", "light:3"};
+    constexpr std::size_t layers = 4 + 3 + 4;
+    const auto estimates = [&](const LoadedScene& loaded, std::size_t layer, std::uint64_t images,
+                               std::uint64_t seed) {
+        MeanAndVariance result;
+        for (std::uint64_t i = 0; i < images; ++i) {
+            RenderOptions options;
+            options.seed = seed * 1000003 + i;
+            options.samples_per_pixel = 4;
+            options.splits = light_splits_from_text(splits);
+            const Image image = render(loaded.job, options).film.develop();
+            double sum = 0.0;
+            for (int y = 0; y < height; ++y)
+                for (int x = 0; x < width; ++x)
+                    sum += static_cast<double>(image.pixel(x, y)[3 + 3 * layer + 1]);
+            result.add(sum);
+        }
+        return result;
+    };
+    for (std::size_t layer = 0; layer < layers; ++layer)
+        check_statistic(
+            fmt::format("layer {}", layer),
+            [&](std::uint64_t n, std::uint64_t seed) {
+                return same_mean_outcome(estimates(with, layer, n, seed),
+                                         estimates(without, layer, n, seed + 1000), 1e-5);
+            },
+            100, sidak_level(significance, layers));
+}
+
 TEST_CASE("where lamps have outlines, rays that look for them take most of the noise",
           "[statistical][outlines]")
 {
