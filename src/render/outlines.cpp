@@ -5,12 +5,15 @@
 #include "base/float_mode.h"
 #include "base/parallel.h"
 #include "plumb/model/shape.h"
+#include "render/pixel_cover.h"
 #include "render/sample_taker.h"
 #include "samplers/hashed.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <unordered_map>
+#include <utility>
 
 namespace plumb {
 namespace {
@@ -34,17 +37,7 @@ float finite_luminance(const Color& color)
     return std::isfinite(value) ? value : 0.f;
 }
 
-std::size_t index_in(const PixelRect& window, Vec2i pixel)
-{
-    return static_cast<std::size_t>(pixel.y - window.y) * static_cast<std::size_t>(window.width) +
-           static_cast<std::size_t>(pixel.x - window.x);
-}
-
-std::size_t pixels_of(const PixelRect& window)
-{
-    return static_cast<std::size_t>(window.width) * static_cast<std::size_t>(window.height);
-}
-
+// The part of it that is in the image may be less.
 std::uint8_t places_for(const RasterBounds& lamp)
 {
     const Vec2f size = lamp.max - lamp.min + Vec2f(1.f); // and the pixels at both ends
@@ -56,6 +49,37 @@ std::uint8_t places_for(const RasterBounds& lamp)
 bool shows_lamps(const SceneObject& object)
 {
     return object.bsdf && object.bsdf->lobes().has_any(delta_lobes | glossy_lobes);
+}
+
+// Where instances show lamps; of very many of them, the box of all.
+std::vector<Box3f> boxes_of_mirrors_in_instances(const Scene& scene)
+{
+    constexpr std::size_t most = 4096;
+    std::unordered_map<const Group*, bool> shows;
+    for (const Group* group : scene.groups())
+        shows[group] = std::ranges::any_of(group->objects(), shows_lamps);
+    std::vector<Box3f> boxes;
+    Box3f all;
+    for (const Instance& instance : scene.instances()) {
+        if (!shows[instance.group.get()]) continue;
+        all.extendBy(instance.bounds());
+        if (boxes.size() <= most) boxes.push_back(instance.bounds());
+    }
+    return boxes.size() > most ? std::vector{all} : boxes;
+}
+
+// The pixels of a window that bounds touch; of no width where there are none.
+PixelRect pixels_in(const RasterBounds& bounds, const PixelRect& window)
+{
+    const auto clamped = [](float x, int first, int size) {
+        return static_cast<int>(std::clamp(x, static_cast<float>(first), static_cast<float>(first + size)));
+    };
+    const int left = clamped(std::floor(bounds.min.x), window.x, window.width);
+    const int right = clamped(std::ceil(bounds.max.x), window.x, window.width);
+    const int top = clamped(std::floor(bounds.min.y), window.y, window.height);
+    const int bottom = clamped(std::ceil(bounds.max.y), window.y, window.height);
+    if (left >= right || top >= bottom) return {window.x, window.y, 0, 0};
+    return {left, top, right - left, bottom - top};
 }
 
 } // namespace
@@ -74,40 +98,44 @@ Outlines::Outlines(const RenderJob& job, const PixelRect& window, int threads)
 
 std::vector<std::uint8_t> Outlines::places() const
 {
-    std::vector<std::uint8_t> places;
-    const auto clamped = [](float x, int first, int size) {
-        return static_cast<int>(std::clamp(x, static_cast<float>(first), static_cast<float>(first + size)));
-    };
+    PixelCover lamps(around_), mirrors(around_);
+    std::vector<std::pair<PixelRect, std::uint8_t>> small_lamps;
     const auto bounds_of = [&](const Box3f& box) {
         return job_.camera->bounds_of(box).value_or(RasterBounds{Vec2f(-infinity), Vec2f(infinity)});
     };
-    const auto mark = [&](const RasterBounds& bounds, std::uint8_t count) {
-        const int left = clamped(std::floor(bounds.min.x), around_.x, around_.width);
-        const int right = clamped(std::ceil(bounds.max.x), around_.x, around_.width);
-        const int top = clamped(std::floor(bounds.min.y), around_.y, around_.height);
-        const int bottom = clamped(std::ceil(bounds.max.y), around_.y, around_.height);
-        if (left >= right || top >= bottom) return;
-        places.resize(pixels_of(around_));
-        for (int y = top; y < bottom; ++y)
-            for (int x = left; x < right; ++x) {
+    for (const SceneObject& object : job_.scene->objects()) {
+        if (!object.emitter && !shows_lamps(object)) continue;
+        const RasterBounds bounds = bounds_of(object.shape->bounds());
+        const PixelRect pixels = pixels_in(bounds, around_);
+        if (pixels.width == 0) continue;
+        if (shows_lamps(object)) mirrors.add(pixels);
+        if (!object.emitter) continue;
+        lamps.add(pixels);
+        if (const std::uint8_t places = places_for(bounds); places > fewest_places_at_lamps)
+            small_lamps.emplace_back(pixels, places);
+    }
+    for (const Box3f& box : boxes_of_mirrors_in_instances(*job_.scene))
+        mirrors.add(pixels_in(bounds_of(box), around_));
+    if (lamps.empty() && mirrors.empty()) return {};
+
+    std::vector<std::uint8_t> places(pixel_count(around_));
+    const std::vector<bool> has_lamp = lamps.covered(), has_mirror = mirrors.covered();
+    for (std::size_t i = 0; i < places.size(); ++i)
+        places[i] = has_lamp[i]     ? fewest_places_at_lamps
+                    : has_mirror[i] ? places_at_mirrors
+                                    : std::uint8_t{0};
+    for (const auto& [pixels, count] : small_lamps)
+        for (int y = pixels.y; y < pixels.y + pixels.height; ++y)
+            for (int x = pixels.x; x < pixels.x + pixels.width; ++x) {
                 std::uint8_t& here = places[index_in(around_, {x, y})];
                 here = std::max(here, count);
             }
-    };
-    for (const SceneObject& object : job_.scene->objects()) {
-        const RasterBounds bounds = bounds_of(object.shape->bounds());
-        if (object.emitter) mark(bounds, places_for(bounds));
-        if (shows_lamps(object)) mark(bounds, places_at_mirrors);
-    }
-    for (const Instance& instance : job_.scene->instances())
-        if (std::ranges::any_of(instance.group->objects(), shows_lamps))
-            mark(bounds_of(instance.bounds()), places_at_mirrors);
     return places;
 }
 
 void Outlines::find(const std::vector<std::uint8_t>& places, int threads)
 {
-    ranges_.resize(pixels_of(around_));
+    ranges_.resize(pixel_count(around_));
     std::atomic<bool> any = false;
     parallel_for(static_cast<std::size_t>(around_.height), threads, [&](std::size_t row) {
         const FlushDenormals flush;
@@ -121,7 +149,7 @@ void Outlines::find(const std::vector<std::uint8_t>& places, int threads)
             if (ranges_[at].most > 0.f) any = true;
         }
     });
-    if (any) answers_.assign(pixels_of(window_), Answer::unknown);
+    if (any) answers_.assign(pixel_count(window_), Answer::unknown);
 }
 
 // Pixels beyond the edges of the image, too, which samplers do not know: they draw the numbers of other ones.

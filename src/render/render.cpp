@@ -234,6 +234,8 @@ Rendering::Rendering(const RenderJob& job, const RenderOptions& options, RenderS
         state_.seconds += guide->seconds;
 }
 
+Rendering::~Rendering() = default;
+
 bool Rendering::take(const SampleSet& wanted, const ProgressReport& progress, const Pause& pause,
                      const TileReport& tile_report)
 {
@@ -252,9 +254,9 @@ bool Rendering::take(const SampleSet& wanted, const ProgressReport& progress, co
     if (rule) expect_plans(state_.film, wanted, total, reporter);
     const SampleLayers layers(job_, options_);
     const FilmEdge edge(*job_.filter, *job_.camera);
-    Outlines outlines(job_, state_.film.window(), options_.threads);
+    if (!outlines_) outlines_ = std::make_unique<Outlines>(job_, state_.film.window(), options_.threads);
     oneapi::tbb::enumerable_thread_specific<Worker> workers(
-        [&] { return Worker(job_, edge, outlines, total, layers); });
+        [&] { return Worker(job_, edge, *outlines_, total, layers); });
     std::atomic<bool> paused = false;
 
     // Where the pixel's samples of the block end. Below the least number of samples there is nothing to decide.

@@ -21,6 +21,7 @@
 
 namespace plumb {
 
+class Outlines;
 class Scene;
 
 // Everything that an image depends on, but for the seed and the number of samples. Cheap to copy; several jobs may share
@@ -110,6 +111,7 @@ public:
     Rendering(const RenderJob& job, const RenderOptions& options, RenderState state);
     Rendering(const Rendering&) = delete;
     Rendering& operator=(const Rendering&) = delete;
+    ~Rendering();
 
     // Takes what has not been taken of the wanted samples, until pause says so. Whether all of them are taken now.
     bool take(const SampleSet& wanted, const ProgressReport& progress = {}, const Pause& pause = {},
@@ -122,6 +124,7 @@ private:
     const RenderJob job_;
     const RenderOptions options_;
     RenderState state_;
+    std::unique_ptr<Outlines> outlines_; // from the first take() on
 };
 
 // All samples that the options ask for.
