@@ -13,6 +13,8 @@
 #include <array>
 #include <cstring>
 
+#include <fmt/format.h>
+
 namespace plumb {
 class ThinDielectric;
 } // namespace plumb
@@ -282,4 +284,25 @@ TEST_CASE("there is no guide where there is nothing to guide", "[statistical][gu
     REQUIRE(nothing);
     CHECK(nothing->arrived == 0);
     CHECK(nothing->cells == 0);
+}
+
+// Under the glass ball: one bounce fewer than light takes through it, as many, and one more.
+TEST_CASE("guided paths take no more bounces than others", "[statistical][guide]")
+{
+    const Scene scene = balls().build();
+    const ChooseRay under_the_ball = rays_around(Vec3f(0.f, 1.f, 4.f), Vec3f(-0.6f, 0.f, 0.f), 0.2f);
+    for (const int depth : {2, 3, 4}) {
+        const auto params = [&](bool guided) {
+            return integrator_params("path_mis").integer("maxDepth", depth).boolean("guide", guided);
+        };
+        const auto guided = make_integrator(params(true), scene);
+        const auto unguided = make_integrator(params(false), scene);
+        check_statistic(
+            fmt::format("depth {}", depth),
+            [&](std::uint64_t n, std::uint64_t seed) {
+                return same_mean_outcome(estimate(scene, *guided, under_the_ball, n, seed),
+                                         estimate(scene, *unguided, under_the_ball, n, seed + 1000), 1e-5);
+            },
+            100000, sidak_level(significance, 3));
+    }
 }

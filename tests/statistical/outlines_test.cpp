@@ -3,17 +3,28 @@
 // Rays that look for lamps where their outlines are seen: the image keeps its mean, has less noise, and obeys the law.
 
 #include "plumb/render/render.h"
+#include "plumb/scene/tracer.h"
 #include "plumb/statistics/mean_and_variance.h"
 #include "support/catch.h"
+#include "support/integrators.h"
 #include "support/scene_text.h"
 #include "support/statistics.h"
 
 #include <fmt/format.h>
 
+namespace plumb {
+class RoughConductor;
+}
+
 using namespace plumb;
 using namespace plumb::test;
 
 namespace {
+
+std::unique_ptr<Bsdf> rough_metal()
+{
+    return ParamsBuilder("bsdf", "roughconductor").number("alpha", 0.2).build<RoughConductor, Bsdf>();
+}
 
 constexpr int width = 14;
 constexpr int height = 10;
@@ -185,6 +196,43 @@ TEST_CASE("where lamps have outlines, rays that look for them take most of the n
     CHECK(variance(8) < 0.25 * variance(0));
 }
 
+TEST_CASE("what looks for lamps finds what the rest leaves out", "[statistical][outlines]")
+{
+    // A metal plate that is found by directions and by emitter samples alike, a mirror and a lamp to see.
+    LittleScene little;
+    little.rectangle(Vec3f(0.f), 6.f, 6.f, Vec3f(0, 1, 0), rough_metal)
+        .rectangle(Vec3f(2.f, 1.f, 0.f), 3.f, 3.f, Vec3f(-1, 0, 0), mirror())
+        .rectangle(Vec3f(0.f, 1.5f, -1.5f), 1.5f, 1.f, Vec3f(0, 0, 1), diffuse(0.4f), Color(3.f));
+    const Scene lit = little.build();
+    const ChooseRay rays = rays_around(Vec3f(0.f, 1.f, 4.f), Vec3f(0.f, 0.6f, 0.f), 1.5f);
+    for (const int candidates : {1, 4}) {
+        const auto integrator =
+            make_integrator(integrator_params("path_mis").integer("candidates", candidates), lit);
+        const auto difference = [&](std::uint64_t samples, std::uint64_t seed) {
+            MeanAndVariance result;
+            const auto sampler = independent_sampler();
+            Tracer all(lit), rest(lit);
+            rest.leave_out_seen_lamps(true);
+            for (std::uint64_t i = 0; i < samples; ++i) {
+                const auto next_ray = [&](std::uint64_t kind) {
+                    sampler->start(seed, {0, 0}, 3 * i + kind);
+                    return rays(*sampler);
+                };
+                const Ray a = next_ray(0);
+                double value = luminance(integrator->radiance(all, *sampler, a));
+                const Ray b = next_ray(1);
+                value -= luminance(integrator->radiance(rest, *sampler, b));
+                const Ray c = next_ray(2);
+                value -= luminance(integrator->look(all, *sampler, c));
+                result.add(value);
+            }
+            return result;
+        };
+        check_mean(fmt::format("{} candidates", candidates), 0.0, difference, 400000,
+                   sidak_level(significance, 2));
+    }
+}
+
 TEST_CASE("with outlines, too, a sample is a function of seed, pixel and index", "[statistical][outlines]")
 {
     for (const auto& [name, view] : views()) {
@@ -242,5 +290,17 @@ TEST_CASE("outlines change nothing where they cannot be", "[statistical][outline
         CHECK(with.rays.total() == without.rays.total());
         for (int y = 0; y < 6; ++y)
             for (int x = 0; x < 8; ++x) CHECK(with.film.words({x, y}) == without.film.words({x, y}));
+    }
+}
+
+TEST_CASE("filters with negative lobes have no looks for lamps", "[statistical][outlines]")
+{
+    for (const char* filter : {"mitchell", "catmullrom", "lanczos"}) {
+        const View view{"perspective", wide, filter};
+        const RenderState with = rendered(scene(view, 8), 1, 4);
+        const RenderState without = rendered(scene(view, 0), 1, 4);
+        CHECK(with.rays.total() == without.rays.total());
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x) CHECK(with.film.words({x, y}) == without.film.words({x, y}));
     }
 }
