@@ -5,8 +5,8 @@
 #include "base/float_mode.h"
 #include "base/parallel.h"
 #include "plumb/model/shape.h"
+#include "render/camera_place.h"
 #include "render/pixel_cover.h"
-#include "render/sample_taker.h"
 #include "samplers/hashed.h"
 
 #include <algorithm>

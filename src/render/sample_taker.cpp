@@ -2,17 +2,9 @@
 
 #include "render/sample_taker.h"
 
-namespace plumb {
+#include "render/camera_place.h"
 
-CameraPlace draw_place(const RenderJob& job, const FilmEdge& edge, Vec2i pixel, Sampler& sampler)
-{
-    const Vec2f u_filter = sampler.next_2d();
-    const Vec2f u_lens = sampler.next_2d();
-    const FilterSample place = edge.sample(pixel, u_filter);
-    const Vec2f raster(static_cast<float>(pixel.x) + 0.5f + place.offset.x,
-                       static_cast<float>(pixel.y) + 0.5f + place.offset.y);
-    return {job.camera->sample_ray(raster, u_lens), raster, place.weight};
-}
+namespace plumb {
 
 SampleTaker::SampleTaker(const RenderJob& job, const FilmEdge& edge, Outlines& outlines, std::uint64_t total,
                          const Tracer::Notes& notes)

@@ -15,15 +15,6 @@ struct SampleTaken {
     float weight; // of the filter
 };
 
-// Where a ray of the camera begins that stands for a pixel.
-struct CameraPlace {
-    CameraRay camera;
-    Vec2f raster;
-    float weight; // of the filter
-};
-// Draws four dimensions.
-CameraPlace draw_place(const RenderJob& job, const FilmEdge& edge, Vec2i pixel, Sampler& sampler);
-
 // One thread's. Job, edge and outlines must outlive it.
 class SampleTaker {
 public:

@@ -182,5 +182,5 @@ class PlumbTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    os.environ["PLUMB_RENDERER"] = sys.argv.pop(1)
+    os.environ["PLUMB_RENDERER"] = os.path.abspath(sys.argv.pop(1))
     unittest.main()

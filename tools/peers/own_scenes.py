@@ -44,7 +44,6 @@ def duration(seconds):
 def row(name, options, directory):
     scene = ROOT / "scenes" / (name + ".xml")
     image = directory / "image.exr"
-    image = directory / "image.exr"
     whole = report(scene, "--spp", 1, "-o", image)["resolution"]
     width = min(options.width, whole[0])
     size = f"{width}x{max(1, round(width * whole[1] / whole[0]))}"

@@ -40,8 +40,8 @@ public:
     virtual const Transform& to_world() const = 0;
     // Whether filters reach beyond the edge of the image; else they are cut there, and what is left of them counts as all.
     virtual bool sample_border() const { return true; }
-    // Where all of the box is seen, if anything is in front of it or not: no more than a guess for what lies close before the
-    // camera. Nothing where that is not known.
+    // Where the box is seen if nothing hides it. What lies very close before the camera may be missing. Nothing if the camera
+    // cannot tell.
     virtual std::optional<RasterBounds> bounds_of(const Box3f& /*world*/) const { return std::nullopt; }
 };
 

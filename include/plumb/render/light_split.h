@@ -47,7 +47,7 @@ public:
     LightSplitter(std::span<const LightSplit> splits, const Scene& scene, std::size_t first_layer);
     bool empty() const { return splits_.empty(); }
 
-    // radiance: of the sample. room: is overwritten.
+    // radiance: of the sample. room is overwritten.
     std::span<const LightShare> shares(const LightNotes& notes, const Color& radiance,
                                        std::vector<LightShare>& room) const;
 
