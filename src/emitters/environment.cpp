@@ -3,6 +3,7 @@
 // Importance sampling of an image of the sky follows pbrt, 4th ed., section 12.5.2, but for the shape of the cells:
 // here a cell's density is constant per unit solid angle, and its weight is the exact mean of what lookups in it give.
 
+#include "emitters/sky_cells.h"
 #include "model/plugin.h"
 #include "plumb/model/emitter.h"
 #include "plumb/sampling/distribution.h"
@@ -44,7 +45,7 @@ namespace plumb {
 ///             <string name="filename" value="textures/dusk.hdr"/>
 ///             <color name="radiance" value="2 2 2"/>
 ///         </emitter>
-class EnvironmentEmitter final : public Emitter {
+class EnvironmentEmitter final : public Emitter, public SkyMap {
 public:
     explicit EnvironmentEmitter(const Params& p)
         : flipped_(p.boolean("flipped", false)),
@@ -67,6 +68,7 @@ public:
             "'rotate' of an environment is ignored, as in the course's renderer: the image is not rotated");
         if (!p.has("filename")) {
             integral_ = 2.0 * two_pi_ * luminance(constant_);
+            tabulate_constant();
             return;
         }
         bitmap_ = std::make_unique<Bitmap>(p.file("filename"), true, constant_ * image_scale);
@@ -80,34 +82,55 @@ public:
     void prepare(const SceneSphere& sphere) override { radius_ = sphere.radius > 0.f ? sphere.radius : 1.f; }
 
     std::optional<EmitterSample> sample(const LightReceiver& receiver, double u_select, const Vec2f& u,
-                                        Measure measure) const override
+                                        Measure) const override
     {
-        const Vec3f wi = bitmap_ ? sample_direction(u_select, u) : square_to_uniform_sphere(u);
-        if (!receiver.counts_light_from(wi)) return std::nullopt;
-        const EmitterValue value = evaluate(receiver, wi, nullptr, measure);
-        if (!(value.pdf > 0.f)) return std::nullopt; // black everywhere
         EmitterSample light;
-        light.wi = wi;
         light.distance = infinity;
-        light.radiance = value.radiance;
-        light.pdf = value.pdf;
+        if (!bitmap_ && receiver.sky.is_whole()) {
+            light.wi = square_to_uniform_sphere(u);
+            light.radiance = constant_;
+            light.pdf = constant_.is_black() ? 0.f : uniform_sphere_pdf();
+        } else if (cells_.can_sample()) {
+            const SkyCells::Choice choice = choose(receiver.sky, u_select, u);
+            const Direction direction = direction_of(choice);
+            light.wi = direction.world;
+            if (!receiver.counts_light_from(light.wi)) return std::nullopt;
+            const EmitterValue value =
+                value_at(receiver.sky, direction.coordinates, {choice.column, choice.row});
+            light.radiance = value.radiance;
+            light.pdf = value.pdf;
+        }
+        if (!(light.pdf > 0.f) || !receiver.counts_light_from(light.wi)) return std::nullopt;
         return light;
     }
 
-    EmitterValue evaluate(const LightReceiver&, const Vec3f& wi, const SurfacePoint* at,
+    EmitterValue evaluate(const LightReceiver& receiver, const Vec3f& wi, const SurfacePoint* at,
                           Measure) const override
     {
         if (at) return {};
-        if (!bitmap_) return {constant_, constant_.is_black() ? 0.f : uniform_sphere_pdf()};
-        const Vec2f cell = cell_coordinates(wi);
-        const Vec2f texel = texel_coordinates(cell);
-        const Bitmap::Rows rows = flipped_ ? Bitmap::Rows::repeat : Bitmap::Rows::clamp;
-        return {bitmap_->bilinear(texel.x, texel.y, rows), pdf(cell)};
+        if (!bitmap_ && receiver.sky.is_whole())
+            return {constant_, constant_.is_black() ? 0.f : uniform_sphere_pdf()};
+        const Vec2f coordinates = cell_coordinates(wi);
+        return value_at(receiver.sky, coordinates, cell_at(coordinates));
     }
 
     float power() const override { return static_cast<float>(integral_ * pi_d) * radius_ * radius_; }
 
     bool is_infinite() const override { return true; }
+    const SkyMap* sky_map() const override { return cells_.can_sample() ? this : nullptr; }
+
+    Vec2f place_of(const Vec3f& wi) const override
+    {
+        const Vec2f cell = cell_coordinates(wi);
+        return {cell.x / static_cast<float>(cells_.columns()), cell.y / static_cast<float>(cells_.rows())};
+    }
+    SkyView view(const SkyRectangle& rectangle) const override { return cells_.view(rectangle); }
+    bool shows(const SkyView& view, const Vec2f& place) const override
+    {
+        const Cell cell = cell_at(
+            {place.x * static_cast<float>(cells_.columns()), place.y * static_cast<float>(cells_.rows())});
+        return cells_.shows(view, cell.column, cell.row);
+    }
     std::uint64_t memory_bytes() const override { return bitmap_ ? bitmap_->memory_bytes() : 0; }
 
 private:
@@ -129,8 +152,8 @@ private:
             turns += static_cast<float>(column_offset_);
             if (turns >= 1.f) turns -= 1.f;
         }
-        return {turns * static_cast<float>(bitmap_->width()),
-                theta * inv_pi * static_cast<float>(cell_rows())};
+        return {turns * static_cast<float>(cells_.columns()),
+                theta * inv_pi * static_cast<float>(cells_.rows())};
     }
 
     // Where the bitmap has the value for a direction.
@@ -141,34 +164,66 @@ private:
         return Vec2f(static_cast<float>(bitmap_->width()), static_cast<float>(bitmap_->height())) - cell;
     }
 
-    float pdf(const Vec2f& cell) const
+    struct Cell {
+        std::size_t column;
+        std::size_t row;
+    };
+    Cell cell_at(const Vec2f& coordinates) const
     {
-        if (!row_choice_.can_sample()) return 0.f;
-        const auto last = [](int size) { return static_cast<std::size_t>(size - 1); };
-        const std::size_t i = std::min(static_cast<std::size_t>(cell.x), last(bitmap_->width()));
-        const std::size_t j = std::min(static_cast<std::size_t>(cell.y), last(cell_rows()));
-        const float row = row_choice_.probability(j);
-        return row > 0.f ? row * column_choice_[j].probability(i) / static_cast<float>(solid_angle(j)) : 0.f;
+        return {std::min(static_cast<std::size_t>(coordinates.x), cells_.columns() - 1),
+                std::min(static_cast<std::size_t>(coordinates.y), cells_.rows() - 1)};
     }
 
-    // Chooses a cell, then a point in it, uniform in phi and cos(theta).
-    Vec3f sample_direction(double u_select, const Vec2f& u) const
+    EmitterValue value_at(const SkyView& sky, const Vec2f& coordinates, const Cell& cell) const
     {
-        if (!row_choice_.can_sample()) return {0.f, 1.f, 0.f};
-        // Samples that are spread evenly over the square are spread evenly over the image's light: u.y chooses the row,
-        // u.x the column. u_select gives each of them the digits that a float has not.
+        const float density = cells_.can_sample() ? pdf(sky, cell) : 0.f;
+        if (!bitmap_) return {constant_, density};
+        const Vec2f texel = texel_coordinates(coordinates);
+        const Bitmap::Rows rows = flipped_ ? Bitmap::Rows::repeat : Bitmap::Rows::clamp;
+        return {bitmap_->bilinear(texel.x, texel.y, rows), density};
+    }
+
+    float pdf(const SkyView& sky, const Cell& cell) const
+    {
+        const float density =
+            cells_.probability(cell.column, cell.row) / static_cast<float>(solid_angle(cell.row));
+        if (sky.is_whole()) return density;
+        const double of_view =
+            cells_.shows(sky, cell.column, cell.row) ? (1.0 - SkyView::everywhere) / sky.share : 0.0;
+        return density * static_cast<float>(SkyView::everywhere + of_view);
+    }
+
+    // Samples that are spread evenly over the square are spread evenly over the image's light: u.y chooses the row,
+    // u.x the column. u_select gives each of them the digits that a float has not.
+    SkyCells::Choice choose(const SkyView& sky, double u_select, const Vec2f& u) const
+    {
         const double digits = u_select * 0x1p27;
         const double first_digits = std::floor(digits);
-        const DiscreteDistribution::Choice row = row_choice_.sample(u.y + first_digits * 0x1p-51);
-        const DiscreteDistribution::Choice column =
-            column_choice_[row.index].sample(u.x + (digits - first_digits) * 0x1p-24);
-        const double phi = two_pi_ * (column.index + column.u) / bitmap_->width() - two_pi_ * column_offset_;
+        const double down = u.y + first_digits * 0x1p-51;
+        const double across = u.x + (digits - first_digits) * 0x1p-24;
+        if (sky.is_whole()) return cells_.sample(across, down);
+        if (down < SkyView::everywhere) return cells_.sample(across, down / SkyView::everywhere);
+        return cells_.sample(sky, across, (down - SkyView::everywhere) / (1.0 - SkyView::everywhere));
+    }
+
+    // A point of a cell, uniform in phi and cos(theta).
+    struct Direction {
+        Vec3f world;
+        Vec2f coordinates;
+    };
+    Direction direction_of(const SkyCells::Choice& choice) const
+    {
+        const double across = choice.column + choice.across;
+        const double phi =
+            two_pi_ * across / static_cast<double>(cells_.columns()) - two_pi_ * column_offset_;
         const double cos_theta =
-            cos_theta_[row.index] - row.u * (cos_theta_[row.index] - cos_theta_[row.index + 1]);
+            cos_theta_[choice.row] - choice.down * (cos_theta_[choice.row] - cos_theta_[choice.row + 1]);
         const double sin_theta = std::sqrt(std::max(0.0, (1.0 - cos_theta) * (1.0 + cos_theta)));
         const SinCosD angle = sin_cos(phi);
         const Vec3d d(sin_theta * angle.cos, cos_theta, sin_theta * angle.sin);
-        return Vec3f(is_turned_ ? normalize(to_world_.vector(d)) : d);
+        const float theta = atan2(static_cast<float>(sin_theta), static_cast<float>(cos_theta));
+        return {Vec3f(is_turned_ ? normalize(to_world_.vector(d)) : d),
+                {static_cast<float>(across), theta * inv_pi * static_cast<float>(cells_.rows())}};
     }
 
     // Between the rows of the image if these are at the poles, else around them.
@@ -176,7 +231,7 @@ private:
 
     double solid_angle(std::size_t row) const
     {
-        return two_pi_ / bitmap_->width() * (cos_theta_[row] - cos_theta_[row + 1]);
+        return two_pi_ / static_cast<double>(cells_.columns()) * (cos_theta_[row] - cos_theta_[row + 1]);
     }
 
     // The texels that lookups in a cell read, along one axis, and their mean weights over the cell.
@@ -228,12 +283,11 @@ private:
     {
         const int width = bitmap_->width();
         const int height = cell_rows();
-        for (int j = 0; j <= height; ++j) cos_theta_.push_back(sin_cos(pi_d * j / height).cos);
+        divide_rows(height);
 
         // A row of the bitmap averaged over the height of cells, then over their widths.
         std::vector<double> row(static_cast<std::size_t>(width));
         std::vector<double> cells(row.size());
-        std::vector<double> row_weights;
         std::vector<Taps> beside;
         for (int i = 0; i < width; ++i) beside.push_back(column_taps(i));
         for (int j = 0; j < height; ++j) {
@@ -249,11 +303,27 @@ private:
                 for (int t = 0; t < 3; ++t)
                     sum += column.weight[t] * row[static_cast<std::size_t>(column.texel[t])];
             }
-            column_choice_.emplace_back(cells);
-            row_weights.push_back(column_choice_.back().sum() * solid_angle(static_cast<std::size_t>(j)));
+            const auto above_row = static_cast<std::size_t>(j);
+            cells_.add_row(cells, two_pi_ / width * (cos_theta_[above_row] - cos_theta_[above_row + 1]));
         }
-        row_choice_ = DiscreteDistribution(row_weights);
-        integral_ = row_choice_.sum();
+        cells_.complete();
+        integral_ = cells_.sum();
+    }
+
+    // Cells of one colour, for those who look through openings.
+    void tabulate_constant()
+    {
+        constexpr int height = 64;
+        divide_rows(height);
+        const std::vector<double> cells(2 * height, luminance(constant_));
+        for (std::size_t j = 0; j < height; ++j)
+            cells_.add_row(cells, pi_d / height * (cos_theta_[j] - cos_theta_[j + 1]));
+        cells_.complete();
+    }
+
+    void divide_rows(int height)
+    {
+        for (int j = 0; j <= height; ++j) cos_theta_.push_back(sin_cos(pi_d * j / height).cos);
     }
 
     bool flipped_;
@@ -265,9 +335,8 @@ private:
     Color constant_;
     std::unique_ptr<Bitmap> bitmap_; // null: constant_ everywhere
     std::vector<double> cos_theta_;  // at the borders of the rows of cells
-    DiscreteDistribution row_choice_;
-    std::vector<DiscreteDistribution> column_choice_; // one a row
-    double integral_ = 0.0;                           // of the luminance over the sphere
+    SkyCells cells_;
+    double integral_ = 0.0; // of the luminance over the sphere
     float radius_ = 1.f;
 };
 

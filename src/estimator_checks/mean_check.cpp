@@ -111,7 +111,7 @@ TestRun test_scene_mean(const TestFile& file, const RenderJob& job, double refer
                         const RunOptions& options)
 {
     const Vec2f size(job.camera->resolution());
-    train(*job.integrator, *job.scene, options.threads);
+    train(*job.integrator, *job.scene, *job.camera, options.threads);
     const Seen seen = gather(file, options, [&] {
         return [&, tracer = Tracer(*job.scene)](Sampler& sampler) mutable {
             const Vec2f u_film = sampler.next_2d();

@@ -65,12 +65,7 @@ float GuideCell::pdf(const Vec3f& from, const Vec3f& direction) const
 
 const GuideCell* CausticGuide::cell_at(const Vec3f& position) const
 {
-    const Node* node = nodes_.data();
-    while (node->axis < 3) {
-        const float coordinate = node->axis == 0 ? position.x : node->axis == 1 ? position.y : position.z;
-        node = nodes_.data() + node->index + (coordinate < node->split ? 0 : 1);
-    }
-    const Leaf& leaf = leaves_[node->index];
+    const Leaf& leaf = leaves_[tree_.leaf_at(position)];
     return leaf.cell && leaf.reach.intersects(position) ? leaf.cell : nullptr;
 }
 

@@ -11,6 +11,7 @@
 // neighbour sees the lamp's image in another direction. How far the image is and how wide the cone must be is what
 // the photons of the cell say of each other.
 
+#include "integrators/point_tree.h"
 #include "plumb/model/guide.h"
 #include "plumb/scene/scene.h"
 
@@ -67,18 +68,13 @@ public:
 
 private:
     friend class GuideBuilder;
-    struct Node {
-        float split = 0.f;
-        std::uint32_t axis = 3;  // 3: a leaf
-        std::uint32_t index = 0; // of the first of two children, or of a leaf
-    };
     struct Leaf {
         Box3f reach; // where it may be asked
         const GuideCell* cell = nullptr;
     };
-    std::vector<Node> nodes_;
-    std::vector<Leaf> leaves_;
-    std::unique_ptr<GuideCell[]> cells_;
+    PointTree tree_;
+    std::vector<Leaf> leaves_;     // of its nodes
+    std::vector<GuideCell> cells_; // which stay where they are
     GuideFacts facts_;
 };
 

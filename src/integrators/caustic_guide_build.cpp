@@ -6,8 +6,8 @@
 #include "base/parallel.h"
 #include "integrators/caustic_photons.h"
 
+#include <algorithm>
 #include <chrono>
-#include <numeric>
 
 namespace plumb {
 namespace {
@@ -21,8 +21,6 @@ constexpr float widest = 0.8f;
 constexpr std::size_t fewest_photons = 8; // of a cell that guides
 // By how much the second moment of what guided and unguided directions find together must be below that of the unguided alone.
 constexpr double least_gain = 2.0;
-
-using Indices = std::span<std::uint32_t>;
 
 Vec3f source_of(const CausticPhoton& photon, float distance)
 {
@@ -119,75 +117,59 @@ Learnt learn_cell(std::span<const CausticPhoton> photons)
 
 } // namespace
 
-// Cuts space in halves of as many photons, as a k-d tree.
 class GuideBuilder {
 public:
     explicit GuideBuilder(std::vector<CausticPhoton> photons) : photons_(std::move(photons)) {}
 
     void build(CausticGuide& guide, int threads)
     {
-        std::vector<std::uint32_t> order(photons_.size());
-        std::iota(order.begin(), order.end(), 0u);
-        guide.nodes_.emplace_back();
-        cut(guide, 0, order);
-        std::vector<Learnt> learnt(parts_.size());
-        parallel_for(parts_.size(), threads, [&](std::size_t i) {
+        std::vector<Vec3f> points;
+        for (const CausticPhoton& photon : photons_) points.push_back(photon.position);
+        PointTree::Members members;
+        guide.tree_ = PointTree(points, GuideCell::most_photons, members);
+        const std::size_t nodes = guide.tree_.nodes();
+        std::vector<std::vector<CausticPhoton>> parts(nodes); // none but of leaves
+        for (std::size_t node = 0; node < nodes; ++node)
+            if (guide.tree_.is_leaf(node))
+                for (const std::uint32_t i : members.of(node)) parts[node].push_back(photons_[i]);
+        std::vector<Learnt> learnt(nodes);
+        parallel_for(nodes, threads, [&](std::size_t node) {
             const FlushDenormals flush;
-            if (parts_[i].size() >= fewest_photons) learnt[i] = learn_cell(parts_[i]);
+            if (parts[node].size() >= fewest_photons) learnt[node] = learn_cell(parts[node]);
         });
-        std::vector<double> brightnesses;
-        for (const std::vector<CausticPhoton>& part : parts_) brightnesses.push_back(brightness(part));
-        std::vector<double> sorted = brightnesses;
-        const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-        std::nth_element(sorted.begin(), middle, sorted.end());
-        guide.cells_ = std::make_unique<GuideCell[]>(parts_.size());
-        for (std::size_t i = 0; i < parts_.size(); ++i) {
-            guide.leaves_.push_back({reach_of(parts_[i]), nullptr});
-            if (!(learnt[i].gain >= least_gain)) continue;
-            guide.cells_[i] = learnt[i].cell;
-            guide.cells_[i].complete(strength_of(brightnesses[i], *middle));
-            guide.leaves_.back().cell = &guide.cells_[i];
-            ++guide.facts_.cells;
+        const double median = median_brightness(guide.tree_, parts);
+        const auto helps = [](const Learnt& one) { return one.gain >= least_gain; };
+        guide.cells_.reserve(static_cast<std::size_t>(std::count_if(learnt.begin(), learnt.end(), helps)));
+        guide.leaves_.resize(nodes);
+        for (std::size_t node = 0; node < nodes; ++node) {
+            if (!helps(learnt[node])) continue;
+            GuideCell& cell = guide.cells_.emplace_back(learnt[node].cell);
+            cell.complete(strength_of(brightness(parts[node]), median));
+            guide.leaves_[node] = {reach_of(parts[node]), &cell};
         }
+        guide.facts_.cells = guide.cells_.size();
     }
 
 private:
+    static double median_brightness(const PointTree& tree,
+                                    const std::vector<std::vector<CausticPhoton>>& parts)
+    {
+        std::vector<double> all;
+        for (std::size_t node = 0; node < parts.size(); ++node)
+            if (tree.is_leaf(node)) all.push_back(brightness(parts[node]));
+        const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
+        std::nth_element(all.begin(), middle, all.end());
+        return *middle;
+    }
+
     static Box3f reach_of(const std::vector<CausticPhoton>& photons)
     {
         const Box3f box = box_of(photons);
         const Vec3f margin(0.5f * length(box.size()));
-        return photons.empty() ? box : Box3f(box.min - margin, box.max + margin);
-    }
-
-    void cut(CausticGuide& guide, std::size_t node, Indices photons)
-    {
-        if (photons.size() <= GuideCell::most_photons) {
-            std::sort(photons.begin(), photons.end());
-            guide.nodes_[node].index = static_cast<std::uint32_t>(parts_.size());
-            std::vector<CausticPhoton>& part = parts_.emplace_back();
-            for (const std::uint32_t i : photons) part.push_back(photons_[i]);
-            return;
-        }
-        Box3f box;
-        for (const std::uint32_t i : photons) box.extendBy(photons_[i].position);
-        const auto axis = box.majorAxis();
-        const auto before = [&](std::uint32_t a, std::uint32_t b) {
-            const float x = photons_[a].position[static_cast<int>(axis)];
-            const float y = photons_[b].position[static_cast<int>(axis)];
-            return x != y ? x < y : a < b;
-        };
-        const auto middle = photons.begin() + static_cast<std::ptrdiff_t>(photons.size() / 2);
-        std::nth_element(photons.begin(), middle, photons.end(), before);
-        const auto children = static_cast<std::uint32_t>(guide.nodes_.size());
-        guide.nodes_[node] = {photons_[*middle].position[static_cast<int>(axis)], axis, children};
-        guide.nodes_.resize(guide.nodes_.size() + 2);
-        const auto half = static_cast<std::size_t>(middle - photons.begin());
-        cut(guide, children, photons.first(half));
-        cut(guide, children + 1, photons.subspan(half));
+        return Box3f(box.min - margin, box.max + margin);
     }
 
     std::vector<CausticPhoton> photons_;
-    std::vector<std::vector<CausticPhoton>> parts_; // of the leaves
 };
 
 CausticGuide CausticGuide::learn(const Scene& scene, int threads)

@@ -5,6 +5,7 @@
 
 #include "integrators/direct_light.h"
 #include "integrators/path_loop.h"
+#include "integrators/sky_guide.h"
 #include "plumb/model/integrator.h"
 
 namespace plumb {
@@ -38,7 +39,17 @@ public:
     Color radiance(Tracer& tracer, Sampler& sampler, const Ray& ray) const;
     std::string bias() const; // as of Integrator
 
+    // Directions of the sky are chosen by what is learnt of it. The guide must live as long.
+    void know_sky(const SkyGuide* guide) { sky_ = guide; }
+
     // The technique that path_loop.h asks for.
+    SkyView sky_at(const Vertex& vertex) const
+    {
+        if (!sky_) [[likely]]
+            return {};
+        const LightReceiver receiver = vertex.receiver();
+        return sky_->view_at(receiver.position, receiver.normal);
+    }
     int max_depth() const { return limits_.max_depth; }
     bool counts_passes() const { return limits_.count_passes; }
     bool hides_emitters() const { return limits_.hide_emitters; }
@@ -68,6 +79,7 @@ private:
     PathLimits limits_;
     Heuristic heuristic_;
     int candidates_;
+    const SkyGuide* sky_ = nullptr;
 };
 
 // An integrator that is no more than an estimator.

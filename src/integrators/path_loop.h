@@ -213,7 +213,8 @@ Color follow_path(const Technique& technique, Tracer& tracer, Sampler& sampler,
             return end("the path has its largest depth"), result;
 
         sampler.start_vertex(surfaces);
-        const Vertex vertex(*hit, ray.direction);
+        Vertex vertex(*hit, ray.direction);
+        if constexpr (requires { technique.sky_at(vertex); }) vertex.know_sky(technique.sky_at(vertex));
         // The next direction before the shadow ray: the processor works on both at once.
         const std::optional<BsdfSample> next = technique.scatter(sampler, vertex);
         if (may_pass && technique.counts_passes())

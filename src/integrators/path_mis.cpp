@@ -22,6 +22,9 @@ namespace plumb {
 /// a surface also looks into directions that they came from, weighted by multiple importance sampling like the
 /// others: the image converges to the same with and without. Where nothing is learnt, nothing changes.
 ///
+/// Likewise paths from the camera learn through which openings surfaces see an environment, and in a room it is looked for there
+/// and not behind the walls.
+///
 /// Where the camera sees the outline of a lamp, directly, in a mirror or in a surface nearly as smooth, most of the noise is
 /// whether a sample meets the lamp. There each sample looks for it with rays of its own, which are followed no further.
 ///
@@ -35,7 +38,8 @@ namespace plumb {
 ///                           would add if nothing were in the way   (default 4)
 ///     outlineRays   integer   how many times each sample looks for a lamp where its outline is seen; 0: not at all
 ///                           (default 8)
-///     guide       boolean   whether caustics are also looked for in directions learnt from photons   (default true)
+///     guide       boolean   whether caustics are also looked for in directions learnt from photons, and environments through openings
+///                           learnt from paths   (default true)
 ///
 ///         <integrator type="path_mis">
 ///             <string name="heuristic" value="balance"/>
@@ -46,22 +50,27 @@ public:
         : estimator_(PathEstimator::LightStrategy::both, PathLimits(params), heuristic_of(params),
                      static_cast<int>(params.integer("candidates", 4, Range::closed(1, 64)))),
           outline_rays_(static_cast<int>(params.integer("outlineRays", 8, Range::closed(0, 64)))),
-          may_guide_(params.boolean("guide", true) && estimator_.max_depth() != 0 &&
-                     estimator_.max_depth() != 1)
+          may_guide_(params.boolean("guide", true) && estimator_.max_depth() != 0)
     {}
 
-    void train(const Scene& scene, int threads) const override
+    void train(const Scene& scene, const Camera& camera, int threads) const override
     {
         if (!may_guide_) return;
         std::call_once(trained_, [&] {
-            guide_.emplace(CausticGuide::learn(scene, threads));
-            if (guide_->is_on()) guided_.emplace(estimator_, *guide_);
+            sky_ = SkyGuide::learn(scene, camera, threads);
+            if (sky_.is_on()) estimator_.know_sky(&sky_);
+            if (estimator_.max_depth() != 1) caustics_ = CausticGuide::learn(scene, threads);
+            if (caustics_.is_on()) guided_.emplace(estimator_, caustics_);
         });
     }
 
     std::optional<GuideFacts> guide() const override
     {
-        return guide_ && guide_->facts().emitted > 0 ? std::optional(guide_->facts()) : std::nullopt;
+        GuideFacts facts = caustics_.facts();
+        facts.paths = sky_.paths();
+        facts.windows = sky_.windows();
+        facts.seconds += sky_.seconds();
+        return facts.emitted > 0 || facts.paths > 0 ? std::optional(facts) : std::nullopt;
     }
 
     Color radiance(Tracer& tracer, Sampler& sampler, const Ray& ray) const override
@@ -78,12 +87,14 @@ public:
     }
 
 private:
-    PathEstimator estimator_;
+    mutable PathEstimator estimator_;
     int outline_rays_;
     bool may_guide_;
     mutable std::once_flag trained_;
-    mutable std::optional<CausticGuide> guide_;
-    mutable std::optional<GuidedPath> guided_; // where the guide is on
+    // What is learnt.
+    mutable SkyGuide sky_;
+    mutable CausticGuide caustics_;
+    mutable std::optional<GuidedPath> guided_; // where there are caustics
 };
 
 template std::unique_ptr<Integrator> build<PathMis>(const Params&);

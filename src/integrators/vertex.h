@@ -19,6 +19,9 @@ public:
         : at_(at), lobes_(at.bsdf->lobes()), wi_(at.shading.to_local(-ray_direction))
     {}
 
+    // What is known of it here.
+    void know_sky(const SkyView& sky) { sky_ = sky; }
+
     const SurfacePoint& at() const { return at_; }
     bool has_delta_lobes() const { return lobes_.has_any(delta_lobes); }
     bool is_glossy() const { return lobes_.has_any(glossy_lobes); }
@@ -40,8 +43,8 @@ public:
     // A surface without smooth transmission is black, from where it is seen, for light samples from behind its shading normal.
     LightReceiver receiver() const
     {
-        if (lobes_.has_any(Lobe::glossy_transmission)) return {at_.position, Vec3f(0.f), is_glossy()};
-        return {at_.position, wi_.z < 0.f ? -at_.shading.n : at_.shading.n, is_glossy()};
+        if (lobes_.has_any(Lobe::glossy_transmission)) return {at_.position, Vec3f(0.f), is_glossy(), sky_};
+        return {at_.position, wi_.z < 0.f ? -at_.shading.n : at_.shading.n, is_glossy(), sky_};
     }
 
     // Whether a sample goes on where the path came from, to rounding.
@@ -53,6 +56,7 @@ private:
     const SurfacePoint& at_;
     Lobes lobes_;
     Vec3f wi_;
+    SkyView sky_;
 };
 
 } // namespace plumb

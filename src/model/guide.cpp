@@ -6,9 +6,11 @@
 
 namespace plumb {
 
-std::optional<GuideFacts> train(const Integrator& integrator, const Scene& scene, int threads)
+std::optional<GuideFacts> train(const Integrator& integrator, const Scene& scene, const Camera& camera,
+                                int threads)
 {
-    if (const auto* const guided = dynamic_cast<const Guided*>(&integrator)) guided->train(scene, threads);
+    if (const auto* const guided = dynamic_cast<const Guided*>(&integrator))
+        guided->train(scene, camera, threads);
     return guide_of(integrator);
 }
 

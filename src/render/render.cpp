@@ -230,7 +230,7 @@ Rendering::Rendering(const RenderJob& job, const RenderOptions& options, RenderS
             "another number in each pixel");
     // Every rendering pays for what its integrator has learnt, whoever was the first to ask for it: the time of an image does not
     // depend on which others were made before.
-    if (const auto guide = train(*job_.integrator, *job_.scene, options_.threads))
+    if (const auto guide = train(*job_.integrator, *job_.scene, *job_.camera, options_.threads))
         state_.seconds += guide->seconds;
 }
 
@@ -346,7 +346,7 @@ ReplayedSample replay(const RenderJob& job, const RenderOptions& options, Vec2i 
                                 size.x, size.y));
     const std::uint64_t total = render_samples(job, options);
     check_total(job, sample_index + 1, total);
-    train(*job.integrator, *job.scene, options.threads);
+    train(*job.integrator, *job.scene, *job.camera, options.threads);
     const FlushDenormals flush;
     ReplayedSample replayed;
     const FilmEdge edge(*job.filter, *job.camera);

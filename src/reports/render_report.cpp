@@ -100,6 +100,8 @@ void write_guide(JsonWriter& json, const std::optional<GuideFacts>& guide)
     json.integer("emitted", guide->emitted);
     json.integer("arrived", guide->arrived);
     json.integer("cells", guide->cells);
+    json.integer("paths", guide->paths);
+    json.integer("windows", guide->windows);
     json.end_object();
 }
 

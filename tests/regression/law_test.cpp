@@ -44,7 +44,21 @@ const std::string lamp =
 const std::string ball = "<mesh type='sphere'><point name='center' value='-0.5,0.7,0'/><float name='radius' "
                          "value='0.7'/>";
 
-// Glass with a filter of negative lobes; gloss and a point light; samples so bright that their squares are kept apart.
+std::string wall(const std::string& center, const std::string& normal, const std::string& size)
+{
+    return "<mesh type='rectangle'><point name='center' value='" + center +
+           "'/><vector name='normal' value='" + normal + "'/><float name='width' value='" + size +
+           "'/><float name='height' value='" + size + "'/></mesh>";
+}
+
+// Over the floor, open above one of its walls.
+const std::string room = wall("0,3,0", "0,-1,0", "9") + wall("4.5,3,0", "-1,0,0", "9") +
+                         wall("0,3,4.6", "0,0,-1", "9") + wall("0,3,-4.5", "0,0,1", "9") +
+                         wall("-4.5,-2,0", "1,0,0", "9") +
+                         "<emitter type='environment'><color name='radiance' value='1,2,3'/></emitter>";
+
+// Glass with a filter of negative lobes; gloss and a point light; samples so bright that their squares are kept apart;
+// instances; a room under a sky.
 const std::string scenes[] = {
     scene_with("path_mis", "sobol", "mitchell", lamp + ball + "<bsdf type='dielectric'/></mesh>"),
     scene_with("path_nee", "independent", "gaussian",
@@ -62,6 +76,7 @@ const std::string scenes[] = {
                    "<shape type='instance'><ref id='pair'/></shape><shape type='instance'><ref id='pair'/>"
                    "<transform name='toWorld'><matrix value='-1 0.3 0 1.2 0 0.5 0 0.1 0.2 0 0.7 0.5 0 0 0 "
                    "1'/></transform></shape>"),
+    scene_with("path_mis", "sobol", "box", room + ball + "<bsdf type='roughconductor'/></mesh>"),
 };
 
 int below(TestRandom& random, int limit)
@@ -133,13 +148,18 @@ void check_law(int cases)
     INFO("PLUMB_TEST_SEED=" << seed);
     TestRandom random(seed);
     const TempDirectory directory;
-    // Whole images and parts by integrators of their own, each of which learns where caustics are.
+    // Whole images and parts by integrators of their own, each of which learns where caustics and windows are.
     std::vector<LoadedScene> loaded, of_parts;
     for (const std::string& scene : scenes) {
         loaded.push_back(test::load_text(scene));
         of_parts.push_back(test::load_text(scene));
     }
-    CHECK(train(*loaded[0].job.integrator, *loaded[0].job.scene, 3).value().cells > 0);
+    const auto learnt = [&](std::size_t i) {
+        const RenderJob& job = loaded[i].job;
+        return train(*job.integrator, *job.scene, *job.camera, 3).value();
+    };
+    CHECK(learnt(0).cells > 0);
+    CHECK(learnt(4).windows > 0);
     for (int i = 0; i < cases; ++i) {
         INFO("case " << i);
         const auto chosen = static_cast<std::size_t>(below(random, std::size(scenes)));

@@ -2,7 +2,10 @@
 
 #include "support/integrators.h"
 
+#include "plumb/model/camera.h"
 #include "plumb/model/guide.h"
+#include "plumb/sampling/sampling.h"
+#include "plumb/scene/scene.h"
 #include "scene_file/catalog.h"
 
 #include <stdexcept>
@@ -19,6 +22,23 @@ BuildIntegrator builder_of(std::string_view type)
     throw std::logic_error("no integrator '" + std::string(type) + "'");
 }
 
+class CameraWithin final : public Camera {
+public:
+    explicit CameraWithin(const Scene& scene) : bounds_(scene.bounds()) {}
+
+    CameraRay sample_ray(const Vec2f& raster, const Vec2f&) const override
+    {
+        const Vec3f origin = bounds_.isEmpty() ? Vec3f(0.f) : bounds_.center();
+        return {Ray(origin, square_to_uniform_sphere(raster)), Color(1.f)};
+    }
+    Vec2i resolution() const override { return {1, 1}; }
+    const Transform& to_world() const override { return to_world_; }
+
+private:
+    Box3f bounds_;
+    Transform to_world_;
+};
+
 constexpr const char* warps[] = {"cosine-hemisphere", "uniform-hemisphere"};
 
 } // namespace
@@ -27,8 +47,13 @@ std::unique_ptr<Integrator> make_integrator(const ParamsBuilder& params, const S
 {
     auto integrator = params.build_with(builder_of(params.type()));
     integrator->prepare(scene);
-    train(*integrator, scene, 1);
+    train(*integrator, scene, *camera_within(scene), 1);
     return integrator;
+}
+
+std::unique_ptr<Camera> camera_within(const Scene& scene)
+{
+    return std::make_unique<CameraWithin>(scene);
 }
 
 std::vector<std::string> integrator_complaints(const ParamsBuilder& params)

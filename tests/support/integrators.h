@@ -3,6 +3,7 @@
 
 // Integrators made in tests.
 
+#include "plumb/model/camera.h"
 #include "support/little_scene.h"
 
 #include <string>
@@ -12,6 +13,8 @@ namespace plumb::test {
 
 // The integrator of that type name, ready for the scene. Throws what prepare() throws.
 std::unique_ptr<Integrator> make_integrator(const ParamsBuilder& params, const Scene& scene);
+// It has learnt with this camera, which sees all around from the middle of the scene.
+std::unique_ptr<Camera> camera_within(const Scene& scene);
 // What its constructor complains of ("error: ...", "warning: ...").
 std::vector<std::string> integrator_complaints(const ParamsBuilder& params);
 

@@ -121,9 +121,14 @@ LittleScene& LittleScene::directional_light(const Vec3f& towards_light, const Co
 
 LittleScene& LittleScene::environment(const Color& radiance)
 {
-    lights_.push_back(ParamsBuilder("emitter", "environment")
-                          .color("radiance", radiance)
-                          .build<EnvironmentEmitter, Emitter>());
+    return add_light(ParamsBuilder("emitter", "environment")
+                         .color("radiance", radiance)
+                         .build<EnvironmentEmitter, Emitter>());
+}
+
+LittleScene& LittleScene::add_light(std::unique_ptr<Emitter> light)
+{
+    lights_.push_back(std::move(light));
     return *this;
 }
 

@@ -37,6 +37,7 @@ public:
     LittleScene& point_light(const Vec3f& position, const Color& intensity);
     LittleScene& directional_light(const Vec3f& towards_light, const Color& radiance);
     LittleScene& environment(const Color& radiance);
+    LittleScene& add_light(std::unique_ptr<Emitter> light);
     LittleScene& absorbing_emitters();
 
     Scene build(); // once

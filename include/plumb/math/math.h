@@ -19,6 +19,7 @@
 namespace plumb {
 
 using Vec2f = Imath::V2f;
+using Vec2d = Imath::V2d;
 using Vec2i = Imath::V2i;
 using Vec3f = Imath::V3f;
 using Vec3d = Imath::V3d;

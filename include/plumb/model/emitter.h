@@ -77,6 +77,9 @@ public:
     // Nothing for infinite emitters.
     virtual std::optional<LightBounds> bounds() const { return std::nullopt; }
 
+    // Of an infinite emitter that has one.
+    virtual const SkyMap* sky_map() const { return nullptr; }
+
     virtual bool is_delta() const { return false; } // BSDF sampling cannot reach it
     virtual bool is_infinite() const
     {

@@ -37,6 +37,9 @@ public:
     }
     float probability(std::size_t index) const { return static_cast<float>(cdf_[index + 1] - cdf_[index]); }
 
+    // The share of all things before this one.
+    double begin_of(std::size_t index) const { return cdf_[index]; }
+
     // The same among the things from number `first` to the one before `last`; nothing where they have no weight.
     struct Pick {
         std::uint32_t index;

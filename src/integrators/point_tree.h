@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Space cut into cells that have about as many of some points each: a k-d tree.
+
+#include "plumb/math/math.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace plumb {
+
+class PointTree {
+public:
+    // What is left of the building: the points of each node.
+    struct Members {
+        std::vector<std::uint32_t> order; // numbers of points; those of a leaf ascend
+        struct Range {
+            std::size_t first = 0;
+            std::size_t last = 0;
+        };
+        std::vector<Range> of_nodes; // in order
+
+        std::span<const std::uint32_t> of(std::size_t node) const
+        {
+            return std::span(order).subspan(of_nodes[node].first, of_nodes[node].last - of_nodes[node].first);
+        }
+    };
+
+    PointTree() = default;
+    // A leaf has `most` points at most. A pure function of the points in their order.
+    PointTree(std::span<const Vec3f> points, std::size_t most, Members& members);
+
+    // The root is node 0, and children have larger numbers than their parents.
+    std::size_t nodes() const { return nodes_.size(); }
+    bool is_leaf(std::size_t node) const { return nodes_[node].axis == leaf; }
+    std::size_t first_child(std::size_t node) const { return nodes_[node].child; } // the other is the next
+
+    // The leaf of any position. Needs a tree.
+    std::size_t leaf_at(const Vec3f& position) const
+    {
+        const Node* node = nodes_.data();
+        while (node->axis != leaf) {
+            const float coordinate = node->axis == 0 ? position.x : node->axis == 1 ? position.y : position.z;
+            node = nodes_.data() + node->child + (coordinate < node->split ? 0 : 1);
+        }
+        return static_cast<std::size_t>(node - nodes_.data());
+    }
+
+private:
+    static constexpr std::uint32_t leaf = 3;
+    struct Node {
+        float split = 0.f;
+        std::uint32_t axis = leaf;
+        std::uint32_t child = 0; // the first of two
+    };
+    std::vector<Node> nodes_;
+};
+
+} // namespace plumb
