@@ -32,7 +32,7 @@ namespace plumb {
 ///     hideEmitters        boolean   the camera sees through surfaces that emit, and no environment; mirrors show them   (default false)
 ///
 /// A path of throughput t (undone what refraction does to radiance) survives roulette with probability
-/// min(max(t), 1), and with no more than 0.95 after 128 bounces.
+/// min(max(t), 1), and with no more than 0.99 after 128 bounces.
 ///
 /// Parameters of the configurable path tracer:
 ///

@@ -8,9 +8,9 @@ namespace {
 constexpr int largest_depth = 1'000'000'000;
 
 // However bright, a path ends some day; but not early: the survivors of a chain that loses nothing, inside glass say,
-// would weigh 1 / 0.95 more with each bounce.
+// would weigh more with each bounce.
 constexpr int uncapped_bounces = 128;
-constexpr float largest_survival = 0.95f;
+constexpr float largest_survival = 0.99f;
 
 } // namespace
 

@@ -37,10 +37,15 @@ public:
     bool is_leaf(std::size_t node) const { return nodes_[node].axis == leaf; }
     std::size_t first_child(std::size_t node) const { return nodes_[node].child; } // the other is the next
 
+    // Of the children, which has a position.
+    bool is_first_of(std::size_t node, const Vec3f& position) const
+    {
+        return position[static_cast<int>(nodes_[node].axis)] < nodes_[node].split;
+    }
     // The leaf of any position. Needs a tree.
     std::size_t leaf_at(const Vec3f& position) const
     {
-        const Node* node = nodes_.data();
+        const Node* node = nodes_.data() + starts_[start_of(position)];
         while (node->axis != leaf) {
             const float coordinate = node->axis == 0 ? position.x : node->axis == 1 ? position.y : position.z;
             node = nodes_.data() + node->child + (coordinate < node->split ? 0 : 1);
@@ -56,6 +61,21 @@ private:
         std::uint32_t child = 0; // the first of two
     };
     std::vector<Node> nodes_;
+
+    // Space is cut into equal cells too, each with the last node that has all of it: so the way down is short.
+    static constexpr int starts = 16; // along each axis
+    std::size_t start_of(const Vec3f& position) const
+    {
+        const auto along = [](float x) {
+            return static_cast<std::size_t>(std::min(std::max(0.f, x), static_cast<float>(starts - 1)));
+        };
+        const Vec3f cell = (position - corner_) * cells_per_unit_;
+        return (along(cell.z) * starts + along(cell.y)) * starts + along(cell.x);
+    }
+    void find_starts(const Box3f& box);
+    Vec3f corner_{0.f};
+    Vec3f cells_per_unit_{0.f};
+    std::vector<std::uint32_t> starts_;
 };
 
 } // namespace plumb

@@ -20,7 +20,7 @@ std::vector<Vec3f> points_of(int kind, std::size_t count, test::TestRandom& rand
         switch (kind) {
         case 0: points.emplace_back(p.x, 2.f, -3.f); break;
         case 1: points.emplace_back(p.x, 0.f, p.z); break;
-        case 2: points.push_back(p); break;
+        case 2: points.push_back(p * std::exp2(20.f * random.next_1d() - 10.f)); break;
         case 3: points.emplace_back(1.f, 2.f, 3.f); break;
         default: points.emplace_back(i % 3 == 0 ? 1.f : 2.f, 0.f, 0.f);
         }
@@ -52,10 +52,19 @@ TEST_CASE("the cells of a point tree have all points, each few", "[unit][point_t
                 seen.insert(mine.begin(), mine.end());
                 // Points in one place may be in several cells, of which any is found.
                 if (kind < 3)
-                    for (const std::uint32_t i : mine) CHECK(tree.leaf_at(points[i]) == node);
+                    for (const std::uint32_t i : mine) REQUIRE(tree.leaf_at(points[i]) == node);
             }
             CHECK(seen.size() == count);
-            CHECK(tree.is_leaf(tree.leaf_at(Vec3f(1e30f, -1e30f, 0.f))));
+            // A place is in the leaf to which it goes at each node.
+            for (int i = 0; i < 200; ++i) {
+                const Vec3f place = random.direction() * std::exp2(30.f * random.next_1d() - 15.f);
+                const std::size_t found = tree.leaf_at(place);
+                CHECK(tree.is_leaf(found));
+                std::size_t node = 0;
+                while (!tree.is_leaf(node))
+                    node = tree.first_child(node) + (tree.is_first_of(node, place) ? 0 : 1);
+                CHECK(found == node);
+            }
         }
     }
 }
