@@ -10,6 +10,9 @@
 #include "plumb/sampling/sampling.h"
 #include "samplers/hashed.h"
 
+#include <algorithm>
+#include <unordered_map>
+
 namespace plumb {
 namespace {
 
@@ -42,9 +45,15 @@ std::vector<Ball> find_targets(const Scene& scene)
         all.extendBy(object.shape->bounds());
         targets.push_back(object.shape->as_ball().value_or(ball_around(object.shape->bounds())));
     }
+    std::unordered_map<const Group*, bool>
+        groups; // which of them are targets: looked at once, not for each instance
     for (const Instance& instance : scene.instances()) {
-        const std::vector<SceneObject>& objects = instance.group->objects();
-        if (std::none_of(objects.begin(), objects.end(), has_delta_bounces)) continue;
+        const auto [group, is_new] = groups.try_emplace(instance.group.get(), false);
+        if (is_new) {
+            const std::vector<SceneObject>& objects = instance.group->objects();
+            group->second = std::any_of(objects.begin(), objects.end(), has_delta_bounces);
+        }
+        if (!group->second) continue;
         all.extendBy(instance.bounds());
         targets.push_back(ball_around(instance.bounds()));
     }

@@ -237,10 +237,16 @@ std::vector<std::string> summary_of(const Report& report, const RenderTask& task
         lines.push_back(fmt::format("adaptive: {} to {} samples per pixel, {:.1f} on average",
                                     evidence.samples_per_pixel, evidence.most_samples_per_pixel.value_or(0),
                                     mean_samples(report)));
-    if (const auto& guide = report.guide; guide && guide->cells > 0)
-        lines.push_back(fmt::format("guide: learnt in {} of that, from {} photons in {} cells",
-                                    duration_text(guide->seconds), count_text(guide->arrived),
-                                    count_text(guide->cells)));
+    if (const auto& guide = report.guide; guide && (guide->cells > 0 || guide->windows > 0)) {
+        std::vector<std::string> learnt;
+        if (guide->cells > 0)
+            learnt.push_back(fmt::format("caustics from {} photons in {} cells", count_text(guide->arrived),
+                                         count_text(guide->cells)));
+        if (guide->windows > 0)
+            learnt.push_back(fmt::format("{} windows to the sky", count_text(guide->windows)));
+        lines.push_back(
+            fmt::format("guide: learnt in {} of that, {}", duration_text(guide->seconds), list_text(learnt)));
+    }
     if (const auto& noise = evidence.noise)
         lines.push_back(fmt::format("noise: rmse {}{:.3g} (95 % interval {:.3g} to {:.3g})",
                                     report.noise_is_bound ? "at most " : "", noise->rmse, noise->low,

@@ -223,3 +223,30 @@ TEST_CASE("the peak memory is the program's, not that of the one which started i
     CHECK(peak < large);
     CHECK(ours.back() == 'x');
 }
+
+TEST_CASE("a rendering tells what its integrator has learnt", "[cli][render]")
+{
+    const SceneDirectory directory;
+    const RunResult glass = directory.run({"scene.xml", "-o", "a.exr"});
+    CHECK_THAT(glass.err, ContainsSubstring("guide: learnt in ") &&
+                              ContainsSubstring(" of that, caustics from ") && ContainsSubstring(" cells\n"));
+
+    const auto wall = [](const std::string& center, const std::string& normal) {
+        return "<shape type='rectangle'><point name='center' value='" + center +
+               "'/><vector name='normal' value='" + normal +
+               "'/><float name='width' value='4'/><float name='height' value='4'/></shape>";
+    };
+    // Open above one of its walls.
+    directory.write("room.xml", "<scene dialect='plumb'><integrator type='path_mis'/><camera "
+                                "type='perspective'><integer name='width' "
+                                "value='24'/><integer name='height' value='18'/></camera>" +
+                                    wall("0,-1,0", "0,1,0") + wall("0,1,0", "0,-1,0") +
+                                    wall("2,0,0", "-1,0,0") + wall("0,0,2", "0,0,-1") +
+                                    wall("0,0,-2", "0,0,1") + wall("-2,-2,0", "1,0,0") +
+                                    "<emitter type='environment'/></scene>");
+    const RunResult room = directory.run({"room.xml", "-o", "b.exr"});
+    INFO(room.err);
+    CHECK_THAT(room.err, ContainsSubstring(" of that, ") && ContainsSubstring(" windows to the sky\n"));
+    const RunResult json = directory.run({"room.xml", "-o", "b.exr", "--json", "-", "--quiet"});
+    CHECK_THAT(json.out, ContainsSubstring("\"paths\": 4096") && !ContainsSubstring("\"windows\": 0"));
+}

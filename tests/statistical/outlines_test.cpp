@@ -131,13 +131,11 @@ TEST_CASE("rays that look for lamps change no mean", "[statistical][outlines]")
         const LoadedScene with = scene(view, 8);
         const LoadedScene without = scene(view, 0);
         for (double Sums::*const part : {&Sums::all, &Sums::alternating})
-            check_statistic(
+            check_same_mean(
                 fmt::format("{}, {}", name, part == &Sums::all ? "sum" : "alternating sum"),
-                [&](std::uint64_t n, std::uint64_t seed) {
-                    return same_mean_outcome(estimate(with, part, n, seed),
-                                             estimate(without, part, n, seed + 1000), 1e-5);
-                },
-                150, sidak_level(significance, 2 * views().size()));
+                [&](std::uint64_t n, std::uint64_t seed) { return estimate(with, part, n, seed); },
+                [&](std::uint64_t n, std::uint64_t seed) { return estimate(without, part, n, seed); }, 150,
+                sidak_level(significance, 2 * views().size()));
     }
 }
 
@@ -166,13 +164,11 @@ TEST_CASE("rays that look for lamps change the mean of no layer", "[statistical]
         return result;
     };
     for (std::size_t layer = 0; layer < layers; ++layer)
-        check_statistic(
+        check_same_mean(
             fmt::format("layer {}", layer),
-            [&](std::uint64_t n, std::uint64_t seed) {
-                return same_mean_outcome(estimates(with, layer, n, seed),
-                                         estimates(without, layer, n, seed + 1000), 1e-5);
-            },
-            100, sidak_level(significance, layers));
+            [&](std::uint64_t n, std::uint64_t seed) { return estimates(with, layer, n, seed); },
+            [&](std::uint64_t n, std::uint64_t seed) { return estimates(without, layer, n, seed); }, 100,
+            sidak_level(significance, layers));
 }
 
 TEST_CASE("where lamps have outlines, rays that look for them take most of the noise",

@@ -179,6 +179,15 @@ bool check_mean(const std::string& name, double expected, const Estimate& estima
     return check_statistic(name, run, samples, level, seed);
 }
 
+bool check_same_mean(const std::string& name, const Estimate& a, const Estimate& b, std::uint64_t samples,
+                     double level, std::uint64_t seed)
+{
+    const auto run = [&](std::uint64_t n, std::uint64_t first_seed) {
+        return same_mean_outcome(a(n, first_seed), b(n, first_seed + 1000), 1e-5);
+    };
+    return check_statistic(name, run, samples, level, seed);
+}
+
 Outcome same_mean_outcome(const MeanAndVariance& a, const MeanAndVariance& b, double relative_rounding)
 {
     const double va = a.variance() / static_cast<double>(a.count());

@@ -56,6 +56,10 @@ bool check_mean(const std::string& name, double expected, const Estimate& estima
 Outcome same_mean_outcome(const MeanAndVariance& a, const MeanAndVariance& b,
                           double relative_rounding = 1e-6);
 
+// The same by the policy. The second estimate gets another seed; what rounding may do to renderings is free.
+bool check_same_mean(const std::string& name, const Estimate& a, const Estimate& b, std::uint64_t samples,
+                     double level, std::uint64_t seed = 1);
+
 // A rectangle of the plane cut into columns x rows cells.
 struct Grid {
     double x_min = 0.0, x_max = 1.0;
