@@ -38,7 +38,9 @@ SkyView SkyCells::view(const SkyRectangle& rectangle) const
 {
     const auto width = static_cast<float>(columns());
     const auto height = static_cast<float>(rows());
-    const auto whole = [](float x) { return static_cast<std::size_t>(std::max(x, 0.f)); };
+    const auto whole = [](float x) {
+        return x > 0.f ? static_cast<std::size_t>(x) : std::size_t{0};
+    }; // 0 of a NaN
     const std::size_t first = std::min(whole(rectangle.left * width), columns() - 1);
     const std::size_t left = first * groups_ / columns(); // which begins at the column or before
     // The first that begins at the column or behind; beyond the map's border as many as before it.

@@ -7,6 +7,7 @@
 #include "support/random.h"
 #include "support/statistics.h"
 
+#include <limits>
 #include <vector>
 
 using namespace plumb;
@@ -120,6 +121,24 @@ TEST_CASE("samples of a view are in it, by their light", "[unit][sky]")
                 const SkyCells::Choice choice = cells.sample(view, across, down);
                 CHECK(cells.probability(choice.column, choice.row) > 0.f);
                 CHECK(cells.shows(view, choice.column, choice.row));
+            }
+    }
+}
+
+TEST_CASE("a view of any rectangle is one, whatever its numbers", "[unit][sky]")
+{
+    TestRandom random(3);
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    for (const Map& map : maps) {
+        const SkyCells cells = cells_of(map, random);
+        for (const float a : {nan, 0.f, 1.f, 0.5f})
+            for (const float b : {nan, 0.f, 1.f, 1e-30f}) {
+                const SkyView view = cells.view({a, b, b, a});
+                if (view.is_whole()) continue;
+                const SkyCells::Choice choice =
+                    cells.sample(view, random.next_double(), random.next_double());
+                CHECK(cells.shows(view, choice.column, choice.row));
+                CHECK(view.share > 0.0);
             }
     }
 }
