@@ -11,7 +11,7 @@
 // neighbour sees the lamp's image in another direction. How far the image is and how wide the cone must be is what
 // the photons of the cell say of each other.
 
-#include "integrators/point_tree.h"
+#include "integrators/cell_tree.h"
 #include "plumb/model/guide.h"
 #include "plumb/scene/scene.h"
 
@@ -72,7 +72,7 @@ private:
         Box3f reach; // where it may be asked
         const GuideCell* cell = nullptr;
     };
-    PointTree tree_;
+    CellTree tree_;
     std::vector<Leaf> leaves_;     // of its nodes
     std::vector<GuideCell> cells_; // which stay where they are
     GuideFacts facts_;

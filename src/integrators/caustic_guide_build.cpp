@@ -125,8 +125,8 @@ public:
     {
         std::vector<Vec3f> points;
         for (const CausticPhoton& photon : photons_) points.push_back(photon.position);
-        PointTree::Members members;
-        guide.tree_ = PointTree(points, GuideCell::most_photons, members);
+        CellTree::Members members;
+        guide.tree_ = CellTree(points, GuideCell::most_photons, members);
         const std::size_t nodes = guide.tree_.nodes();
         std::vector<std::vector<CausticPhoton>> parts(nodes); // none but of leaves
         for (std::size_t node = 0; node < nodes; ++node)
@@ -151,7 +151,7 @@ public:
     }
 
 private:
-    static double median_brightness(const PointTree& tree,
+    static double median_brightness(const CellTree& tree,
                                     const std::vector<std::vector<CausticPhoton>>& parts)
     {
         std::vector<double> all;

@@ -106,8 +106,8 @@ public:
             }
             if (mine.empty()) continue;
             SkyGuide::Side& side = guide.sides_[s];
-            PointTree::Members members;
-            side.cells = PointTree(points, most_places, members);
+            CellTree::Members members;
+            side.cells = CellTree(points, most_places, members);
             std::vector<std::optional<SkyGuide::Window>> windows(side.cells.nodes());
             parallel_for(windows.size(), threads, [&](std::size_t node) {
                 if (!side.cells.is_leaf(node)) return;

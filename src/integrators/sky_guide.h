@@ -12,7 +12,7 @@
 // smooth in the random numbers, and evenly spread samples keep what they are good for. (Densities in bins, as are usual for guiding,
 // lose more by that than they gain: docs/performance.md.)
 
-#include "integrators/point_tree.h"
+#include "integrators/cell_tree.h"
 #include "plumb/model/camera.h"
 #include "plumb/model/sky_view.h"
 #include "plumb/scene/scene.h"
@@ -66,7 +66,7 @@ private:
     }
 
     struct Side {
-        PointTree cells;
+        CellTree cells;
         std::vector<std::uint32_t> window_of_node; // none where there is none, or no leaf
     };
     const SkyMap* map_ = nullptr;

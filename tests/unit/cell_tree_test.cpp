@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-#include "integrators/point_tree.h"
+#include "integrators/cell_tree.h"
 #include "support/catch.h"
 #include "support/random.h"
 
@@ -30,15 +30,15 @@ std::vector<Vec3f> points_of(int kind, std::size_t count, test::TestRandom& rand
 
 } // namespace
 
-TEST_CASE("the cells of a point tree have all points, each few", "[unit][point_tree]")
+TEST_CASE("the cells of a tree have all points, each few", "[unit][cell_tree]")
 {
     test::TestRandom random(1);
     for (int kind = 0; kind < 5; ++kind) {
         for (const std::size_t count : {0u, 1u, 7u, 8u, 9u, 1000u}) {
             CAPTURE(kind, count);
             const std::vector<Vec3f> points = points_of(kind, count, random);
-            PointTree::Members members;
-            const PointTree tree(points, 8, members);
+            CellTree::Members members;
+            const CellTree tree(points, 8, members);
             std::set<std::uint32_t> seen;
             for (std::size_t node = 0; node < tree.nodes(); ++node) {
                 const auto mine = members.of(node);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 
-#include "integrators/point_tree.h"
+#include "integrators/cell_tree.h"
 
 #include <algorithm>
 #include <numeric>
 
 namespace plumb {
 
-PointTree::PointTree(std::span<const Vec3f> points, std::size_t most, Members& members)
+CellTree::CellTree(std::span<const Vec3f> points, std::size_t most, Members& members)
 {
     members.order.resize(points.size());
     std::iota(members.order.begin(), members.order.end(), 0u);
@@ -40,7 +40,7 @@ PointTree::PointTree(std::span<const Vec3f> points, std::size_t most, Members& m
     find_starts(box);
 }
 
-void PointTree::find_starts(const Box3f& box)
+void CellTree::find_starts(const Box3f& box)
 {
     starts_.assign(std::size_t{starts} * starts * starts, 0);
     if (box.isEmpty()) return;

@@ -11,7 +11,7 @@
 
 namespace plumb {
 
-class PointTree {
+class CellTree {
 public:
     // What is left of the building: the points of each node.
     struct Members {
@@ -28,9 +28,9 @@ public:
         }
     };
 
-    PointTree() = default;
+    CellTree() = default;
     // A leaf has `most` points at most. A pure function of the points in their order.
-    PointTree(std::span<const Vec3f> points, std::size_t most, Members& members);
+    CellTree(std::span<const Vec3f> points, std::size_t most, Members& members);
 
     // The root is node 0, and children have larger numbers than their parents.
     std::size_t nodes() const { return nodes_.size(); }
