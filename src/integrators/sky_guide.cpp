@@ -7,6 +7,7 @@
 #include "integrators/sky_window.h"
 #include "integrators/vertex.h"
 #include "plumb/sampling/sampling.h"
+#include "plumb/scene/tracer.h"
 #include "samplers/hashed.h"
 
 #include <chrono>
@@ -62,9 +63,10 @@ public:
         std::vector<SkyRay> rays;
     };
 
-    // Where a path from the camera goes, while one bounce after the other is not delta.
+    // Follows a path from the camera, and looks for the sky from each surface that scatters.
     void follow_path(std::uint64_t index, const SkyGuide& so_far, std::vector<Place>& places) const
     {
+        Tracer tracer(scene_);
         RandomStream random(random_word(path_key, index));
         const Vec2f film = random.next_2d();
         const Vec2f lens = random.next_2d();
@@ -76,7 +78,7 @@ public:
             const auto hit = scene_.intersect(ray);
             if (!hit || (hit->emitter && scene_.emitters_absorb())) return;
             const Vertex vertex(*hit, ray.direction);
-            if (vertex.has_smooth_lobes()) places.push_back(look_around(random, vertex, so_far));
+            if (vertex.has_smooth_lobes()) places.push_back(look_around(tracer, random, vertex, so_far));
             const float u_lobe = random.next_1d();
             const Vec2f u = random.next_2d();
             const float u_survival = random.next_1d();
@@ -129,7 +131,8 @@ public:
 private:
     // Into directions of the sky and into those that a diffuse surface scatters to, weighted against each other (Veach 1997, section
     // 9.2, balance heuristic).
-    Place look_around(RandomStream& random, const Vertex& vertex, const SkyGuide& so_far) const
+    Place look_around(Tracer& tracer, RandomStream& random, const Vertex& vertex,
+                      const SkyGuide& so_far) const
     {
         const LightReceiver everything = vertex.receiver();
         LightReceiver receiver = everything;
@@ -143,9 +146,10 @@ private:
             const EmitterValue sky = sky_->evaluate(receiver, wi, nullptr, Measure::best);
             const float pdf_of_all = sky_->evaluate(everything, wi, nullptr, Measure::best).pdf;
             const float of_surface = is_two_sided ? uniform_sphere_pdf() : cosine * inv_pi;
-            const float value = cosine * luminance(sky.radiance);
-            if (!(value > 0.f) || !(pdf_of_all > 0.f)) return;
-            if (scene_.occluded(vertex.at().spawn_ray(wi))) return;
+            const float light = cosine * luminance(sky.radiance);
+            if (!(light > 0.f) || !(pdf_of_all > 0.f)) return;
+            const float value = light * tracer.transmittance(vertex.at().spawn_ray(wi));
+            if (!(value > 0.f)) return;
             const double moment = sqr(static_cast<double>(value)) /
                                   static_cast<double>(0.5f * (sky.pdf + of_surface) * pdf_of_all);
             place.rays.push_back({receiver.position, map_->place_of(wi), moment});
