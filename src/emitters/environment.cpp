@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 
 // Importance sampling of an image of the sky follows pbrt, 4th ed., section 12.5.2, but for the shape of the cells:
-// here a cell's density is constant per unit solid angle, and its weight is the exact mean of what lookups in it give.
+// here a cell's density is constant per unit solid angle, and its weight is the exact mean of what lookups in it give
+// (sky_texels.h).
 
 #include "emitters/sky_cells.h"
+#include "emitters/sky_texels.h"
 #include "model/plugin.h"
 #include "plumb/model/emitter.h"
 #include "plumb/sampling/distribution.h"
@@ -226,85 +228,18 @@ private:
                 {static_cast<float>(across), theta * inv_pi * static_cast<float>(cells_.rows())}};
     }
 
-    // Between the rows of the image if these are at the poles, else around them.
-    int cell_rows() const { return rows_at_poles_ ? std::max(bitmap_->height() - 1, 1) : bitmap_->height(); }
-
     double solid_angle(std::size_t row) const
     {
         return two_pi_ / static_cast<double>(cells_.columns()) * (cos_theta_[row] - cos_theta_[row + 1]);
     }
 
-    // The texels that lookups in a cell read, along one axis, and their mean weights over the cell.
-    struct Taps {
-        int texel[3];
-        double weight[3];
-    };
-
-    // `first` and `second`: where the halves of the cell have their centres of mass, from 0 to 1/2 and from 1/2 to 1;
-    // `share`: the part of the mass that is in the first half.
-    Taps taps(int cell, int size, bool repeat, double first, double second, double share) const
-    {
-        const auto wrap = [&](int t) { return repeat ? (t + size) % size : std::clamp(t, 0, size - 1); };
-        if (flipped_) { // linear from one texel at the cell's beginning to the other at its end
-            const double mean = share * first + (1.0 - share) * second;
-            return {{wrap(size - cell), wrap(size - 1 - cell), 0}, {1.0 - mean, mean, 0.0}};
-        }
-        // Linear in each half: from midway between the texel before and the cell's own to that one, and on.
-        const double before = share * (0.5 - first);
-        const double after = (1.0 - share) * (second - 0.5);
-        return {{wrap(cell - 1), cell, wrap(cell + 1)}, {before, 1.0 - before - after, after}};
-    }
-
-    Taps column_taps(int column) const { return taps(column, bitmap_->width(), true, 0.25, 0.75, 0.5); }
-
-    // As much of a row is at theta as its ring is long: sin(theta).
-    Taps row_taps(int row) const
-    {
-        const double height = cell_rows();
-        const auto theta = [&](double y) { return pi_d * y / height; };
-        const auto mass = [&](double y) { return -sin_cos(theta(y)).cos; };
-        const auto moment = [&](double y) {
-            return sin_cos(theta(y)).sin - theta(y) * sin_cos(theta(y)).cos;
-        };
-        const auto center = [&](double begin, double end) {
-            const double mean = (moment(end) - moment(begin)) / (mass(end) - mass(begin)); // of theta
-            return std::clamp(mean * height / pi_d, begin, end) - row;
-        };
-        if (rows_at_poles_) { // linear from one row to the next
-            const double mean = center(row, row + 1.0);
-            return {{row, std::min(row + 1, bitmap_->height() - 1), 0}, {1.0 - mean, mean, 0.0}};
-        }
-        const double share = (mass(row + 0.5) - mass(row)) / (mass(row + 1.0) - mass(row));
-        return taps(row, bitmap_->height(), flipped_, center(row, row + 0.5), center(row + 0.5, row + 1.0),
-                    share);
-    }
-
     void tabulate()
     {
-        const int width = bitmap_->width();
-        const int height = cell_rows();
-        divide_rows(height);
-
-        // A row of the bitmap averaged over the height of cells, then over their widths.
-        std::vector<double> row(static_cast<std::size_t>(width));
-        std::vector<double> cells(row.size());
-        std::vector<Taps> beside;
-        for (int i = 0; i < width; ++i) beside.push_back(column_taps(i));
-        for (int j = 0; j < height; ++j) {
-            const Taps above = row_taps(j);
-            for (int x = 0; x < width; ++x) {
-                double& sum = row[static_cast<std::size_t>(x)] = 0.0;
-                for (int t = 0; t < 3; ++t)
-                    sum += above.weight[t] * luminance(bitmap_->texel(x, above.texel[t]));
-            }
-            for (int i = 0; i < width; ++i) {
-                const Taps& column = beside[static_cast<std::size_t>(i)];
-                double& sum = cells[static_cast<std::size_t>(i)] = 0.0;
-                for (int t = 0; t < 3; ++t)
-                    sum += column.weight[t] * row[static_cast<std::size_t>(column.texel[t])];
-            }
-            const auto above_row = static_cast<std::size_t>(j);
-            cells_.add_row(cells, two_pi_ / width * (cos_theta_[above_row] - cos_theta_[above_row + 1]));
+        const SkyTexels texels(*bitmap_, flipped_, rows_at_poles_);
+        divide_rows(texels.rows());
+        for (int row = 0; row < texels.rows(); ++row) {
+            const auto j = static_cast<std::size_t>(row);
+            cells_.add_row(texels.row(row), two_pi_ / bitmap_->width() * (cos_theta_[j] - cos_theta_[j + 1]));
         }
         cells_.complete();
         integral_ = cells_.sum();
