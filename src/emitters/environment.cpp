@@ -8,11 +8,11 @@
 #include "emitters/sky_texels.h"
 #include "model/plugin.h"
 #include "plumb/model/emitter.h"
-#include "plumb/sampling/distribution.h"
 #include "plumb/sampling/sampling.h"
 #include "textures/bitmap.h"
 
 #include <memory>
+#include <vector>
 
 namespace plumb {
 

@@ -17,7 +17,6 @@
 
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 namespace plumb {
@@ -58,6 +57,9 @@ private:
 
 class CausticGuide {
 public:
+    CausticGuide() = default;
+    CausticGuide(CausticGuide&&) = default; // the leaves point to its cells, so there are no copies
+    CausticGuide& operator=(CausticGuide&&) = default;
     // A pure function of the scene.
     static CausticGuide learn(const Scene& scene, int threads);
 

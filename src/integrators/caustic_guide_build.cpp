@@ -137,28 +137,30 @@ public:
             const FlushDenormals flush;
             if (parts[node].size() >= fewest_photons) learnt[node] = learn_cell(parts[node]);
         });
-        const double median = median_brightness(guide.tree_, parts);
+        std::vector<double> brightnesses(nodes);
+        std::vector<double> of_leaves;
+        for (std::size_t node = 0; node < nodes; ++node) {
+            if (!guide.tree_.is_leaf(node)) continue;
+            of_leaves.push_back(brightnesses[node] = brightness(parts[node]));
+        }
+        const double usual = median(std::move(of_leaves));
         const auto helps = [](const Learnt& one) { return one.gain >= least_gain; };
         guide.cells_.reserve(static_cast<std::size_t>(std::count_if(learnt.begin(), learnt.end(), helps)));
         guide.leaves_.resize(nodes);
         for (std::size_t node = 0; node < nodes; ++node) {
             if (!helps(learnt[node])) continue;
             GuideCell& cell = guide.cells_.emplace_back(learnt[node].cell);
-            cell.complete(strength_of(brightness(parts[node]), median));
+            cell.complete(strength_of(brightnesses[node], usual));
             guide.leaves_[node] = {reach_of(parts[node]), &cell};
         }
         guide.facts_.cells = guide.cells_.size();
     }
 
 private:
-    static double median_brightness(const CellTree& tree,
-                                    const std::vector<std::vector<CausticPhoton>>& parts)
+    static double median(std::vector<double> values)
     {
-        std::vector<double> all;
-        for (std::size_t node = 0; node < parts.size(); ++node)
-            if (tree.is_leaf(node)) all.push_back(brightness(parts[node]));
-        const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
-        std::nth_element(all.begin(), middle, all.end());
+        const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+        std::nth_element(values.begin(), middle, values.end());
         return *middle;
     }
 

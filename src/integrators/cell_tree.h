@@ -37,7 +37,7 @@ public:
     bool is_leaf(std::size_t node) const { return nodes_[node].axis == leaf; }
     std::size_t first_child(std::size_t node) const { return nodes_[node].child; } // the other is the next
 
-    // Of the children, which has a position.
+    // Whether the first child has the position, or the other.
     bool is_first_of(std::size_t node, const Vec3f& position) const
     {
         return position[static_cast<int>(nodes_[node].axis)] < nodes_[node].split;
@@ -45,12 +45,9 @@ public:
     // The leaf of any position. Needs a tree.
     std::size_t leaf_at(const Vec3f& position) const
     {
-        const Node* node = nodes_.data() + starts_[start_of(position)];
-        while (node->axis != leaf) {
-            const float coordinate = node->axis == 0 ? position.x : node->axis == 1 ? position.y : position.z;
-            node = nodes_.data() + node->child + (coordinate < node->split ? 0 : 1);
-        }
-        return static_cast<std::size_t>(node - nodes_.data());
+        std::size_t node = starts_[start_of(position)];
+        while (!is_leaf(node)) node = first_child(node) + (is_first_of(node, position) ? 0 : 1);
+        return node;
     }
 
 private:

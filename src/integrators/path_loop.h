@@ -12,6 +12,7 @@
 //     std::optional<BsdfSample> scatter(Sampler&, const Vertex&) const   where the path goes on
 //     float survival(const PathState&, int bounces) const       the chance that it does; 1: no roulette
 //     bool hides_emitters() const                               optional: does the camera see through emitters?
+//     SkyView sky_at(const Vertex&) const                       optional: what is known there of an environment (sky_view.h)
 //     bool sees_only_lamps                                      optional, static: does light from outside the scene not count?
 //
 // and, all or none, of techniques that look for emitters behind delta bounces by other means, too (guided_path.h):

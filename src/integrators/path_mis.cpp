@@ -22,8 +22,8 @@ namespace plumb {
 /// a surface also looks into directions that they came from, weighted by multiple importance sampling like the
 /// others: the image converges to the same with and without. Where nothing is learnt, nothing changes.
 ///
-/// Likewise paths from the camera learn through which openings surfaces see an environment, and in a room it is looked for there
-/// and not behind the walls.
+/// In the same way, paths from the camera learn through which openings surfaces see an environment. In a room it is then looked
+/// for there, not behind the walls.
 ///
 /// Where the camera sees the outline of a lamp, directly, in a mirror or in a surface nearly as smooth, most of the noise is
 /// whether a sample meets the lamp. There each sample looks for it with rays of its own, which are followed no further.
