@@ -33,16 +33,17 @@ struct Format {
     std::string_view compression;
     std::string_view fast_compression = compression;
     bool not_in_all_modules = false;
+    bool has_alpha = true;
 };
 
 constexpr Format formats[] = {
     {".exr", Encoding::linear_float, true, "zip", "rle"},
-    {".hdr", Encoding::linear_float, false, ""},
+    {".hdr", Encoding::linear_float, false, "", "", false, false},
     {".tif", Encoding::linear_float, false, "zip", "zip", true},
     {".tiff", Encoding::linear_float, false, "zip", "zip", true},
     {".png", Encoding::srgb_8bit, false, ""},
-    {".jpg", Encoding::srgb_8bit, false, "jpeg:95"},
-    {".jpeg", Encoding::srgb_8bit, false, "jpeg:95"},
+    {".jpg", Encoding::srgb_8bit, false, "jpeg:95", "jpeg:95", false, false},
+    {".jpeg", Encoding::srgb_8bit, false, "jpeg:95", "jpeg:95", false, false},
 };
 
 [[noreturn]] void fail(const std::filesystem::path& path, std::string_view reason)
@@ -73,12 +74,17 @@ void check_module_writes(const std::filesystem::path& path, const Format& format
     }
 }
 
-// Layers go into formats that hold any channel. They come last.
+// Formats that name no channels hold what they take for colours: grey or red, green and blue, and some of them alpha. Layers, which
+// come last, and numbers of other kinds, as depth, are for formats that hold any channel.
 int channels_written(const Image& image, const Format& format)
 {
+    if (format.keeps_all) return image.channel_count();
     const std::vector<std::string>& names = image.channel_names();
     const auto first_of_layers = std::find_if(names.begin(), names.end(), is_layer_channel);
-    return format.keeps_all ? image.channel_count() : static_cast<int>(first_of_layers - names.begin());
+    const auto count = static_cast<int>(first_of_layers - names.begin());
+    const int colors = count >= 3 ? 3 : std::min(count, 1);
+    const bool has_alpha = colors < count && names[static_cast<std::size_t>(colors)] == "A";
+    return has_alpha && format.has_alpha ? colors + 1 : colors;
 }
 
 // Grey and colours are developed; what else there is, alpha, is only encoded.

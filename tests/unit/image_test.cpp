@@ -293,6 +293,34 @@ TEST_CASE("images with many channels are read whole", "[unit][image]")
     CHECK(back.color(1, 1) == Color(0.f, 1.f, 2.f));
 }
 
+TEST_CASE("what is neither colour nor alpha is left out of formats that name no channels", "[unit][image]")
+{
+    struct Case {
+        std::vector<std::string> channels;
+        int colors;
+        bool has_alpha;
+    };
+    const Case one = GENERATE(Case{{"R", "G", "B", "count"}, 3, false},
+                              Case{{"R", "G", "B", "Z", "id", "normal.X"}, 3, false},
+                              Case{{"R", "G", "B", "A", "Z"}, 3, true}, Case{{"Y", "Z"}, 1, false},
+                              Case{{"Y", "A", "depth.Z"}, 1, true});
+    const TempDirectory directory;
+    Image image({0, 0, 16, 16}, 16, 16, one.channels);
+    for (int y = 0; y < 16; ++y)
+        for (int x = 0; x < 16; ++x)
+            for (int c = 0; c < image.channel_count(); ++c) image.pixel(x, y)[c] = c < one.colors ? 0.25f : 0.f;
+    for (const std::string& name : written_formats({"a.png", "a.jpg", "a.hdr", "a.tif"})) {
+        CAPTURE(name, one.channels);
+        const bool holds_alpha = name == "a.png" || name == "a.tif";
+        if (one.colors == 1 && name == "a.hdr") continue; // it has no grey
+        write_image(directory / name, image);
+        const Image back = read_image(directory / name, true);
+        if (holds_alpha) CHECK(back.channel_count() == one.colors + (one.has_alpha ? 1 : 0));
+        CHECK(back.color(8, 8).g == Approx(0.25f).margin(0.004));
+        if (one.has_alpha && holds_alpha) CHECK(back.pixel(8, 8)[one.colors] == 0.f);
+    }
+}
+
 TEST_CASE("a path that cannot be written is found out", "[unit][image]")
 {
     const TempDirectory directory;
@@ -317,19 +345,18 @@ TEST_CASE("a path that cannot be written is found out", "[unit][image]")
 TEST_CASE("writing that fails keeps the file that was there", "[unit][image]")
 {
     const TempDirectory directory;
-    directory.write("a.png", "precious");
-    // More channels than PNG can hold.
-    const Image image({0, 0, 2, 2}, 2, 2, {"A1", "A2", "A3", "A4", "A5", "A6", "A7"});
+    directory.write("a.hdr", "precious");
+    const Image image({0, 0, 2, 2}, 2, 2, {"Y"}); // the format has no grey
     std::string message;
     try {
-        write_image(directory / "a.png", image);
+        write_image(directory / "a.hdr", image);
     } catch (const Error& error) {
         message = error.what();
     }
-    CHECK_THAT(message, ContainsSubstring("cannot write '" + (directory / "a.png").string() + "': "));
+    CHECK_THAT(message, ContainsSubstring("cannot write '" + (directory / "a.hdr").string() + "': "));
     CHECK(message.find('\n') == std::string::npos);
-    CHECK(read_bytes(directory / "a.png") == "precious");
-    CHECK(directory.files() == std::vector<std::string>{"a.png"});
+    CHECK(read_bytes(directory / "a.hdr") == "precious");
+    CHECK(directory.files() == std::vector<std::string>{"a.hdr"});
 }
 
 TEST_CASE("a disk that is full is an error, and nothing is left of the file", "[unit][image]")
