@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 
+// [1] Veach 1997, "Robust Monte Carlo Methods for Light Transport Simulation", section 9.2
+
 #include "integrators/direct_light.h"
 
 #include "plumb/base/error.h"
@@ -20,6 +22,14 @@ Color light_from(Tracer& tracer, Sampler& sampler, const Vertex& vertex, const E
     const auto light = emitter.sample(vertex.receiver(), u_select, u, measure);
     if (!light) return Color(0.f);
     return light_through(tracer, vertex, *light, vertex.evaluate(light->wi).f_cos);
+}
+
+// Of one of so many emitter samples, against BSDF samples of density bsdf_pdf ([1], equations 9.13 and 9.14).
+float weight_of(const EmitterSample& light, Heuristic heuristic, float samples, float bsdf_pdf, float directions)
+{
+    if (light.is_delta) return 1.f;
+    const float looking = light.distance == infinity ? 1.f : directions;
+    return mis_weight(heuristic, samples * light.pdf, looking * bsdf_pdf);
 }
 
 struct EmitterNumbers {
@@ -71,7 +81,8 @@ Color light_through(Tracer& tracer, const Vertex& vertex, const EmitterSample& l
     return Color(0.f);
 }
 
-Color light_from_one_emitter(Tracer& tracer, Sampler& sampler, const Vertex& vertex, Heuristic heuristic)
+Color light_from_one_emitter(Tracer& tracer, Sampler& sampler, const Vertex& vertex, Heuristic heuristic,
+                             float directions)
 {
     if (!vertex.has_smooth_lobes()) return Color(0.f);
     const double u_choice = sampler.next_choice();
@@ -79,14 +90,14 @@ Color light_from_one_emitter(Tracer& tracer, Sampler& sampler, const Vertex& ver
     const auto light = tracer.scene().sample_emitter(vertex.receiver(), u_choice, u);
     if (!light) return Color(0.f);
     const BsdfValue value = vertex.evaluate(light->wi);
-    const float weight = light->is_delta ? 1.f : mis_weight(heuristic, light->pdf, value.pdf);
+    const float weight = weight_of(*light, heuristic, 1.f, value.pdf, directions);
     const Color found = light_through(tracer, vertex, *light, value.f_cos, weight);
     tracer.note_light(found, FoundBy::emitter_sample, light->emitter_index);
     return found;
 }
 
 Color light_by_resampling(Tracer& tracer, Sampler& sampler, const Vertex& vertex, Heuristic heuristic,
-                          int candidates)
+                          int candidates, float directions)
 {
     if (!vertex.has_smooth_lobes()) return Color(0.f);
     const double u_choice = sampler.next_choice();
@@ -103,7 +114,7 @@ Color light_by_resampling(Tracer& tracer, Sampler& sampler, const Vertex& vertex
         if (!light) continue;
         const BsdfValue value = vertex.evaluate(light->wi);
         const float brightness = luminance(value.f_cos * light->radiance);
-        const float mis = light->is_delta ? 1.f : mis_weight(heuristic, count * light->pdf, value.pdf);
+        const float mis = weight_of(*light, heuristic, count, value.pdf, directions);
         const float share = brightness * mis / light->pdf;
         if (!(share > 0.f)) continue;
         sum += share;

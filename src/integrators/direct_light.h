@@ -16,9 +16,9 @@ Heuristic heuristic_of(const Params& params); // the parameter `heuristic`
 float mis_weight(Heuristic heuristic, float mine, float other);
 
 // One emitter, chosen by what it is expected to send here (light_tree.h), and one point of it. With a heuristic, emitters that BSDF sampling
-// finds too are weighted against it.
+// finds too are weighted against it. directions: how many BSDF samples look for lamps for each of these; for environments there is one.
 Color light_from_one_emitter(Tracer& tracer, Sampler& sampler, const Vertex& vertex,
-                             Heuristic heuristic = Heuristic::none);
+                             Heuristic heuristic = Heuristic::none, float directions = 1.f);
 
 // The same by resampling [1]: of `candidates` such points one is followed, chosen in proportion to what it would add if
 // nothing were in the way. To BSDF sampling, which finds emitters too, they count as so many samples: the weights
@@ -31,7 +31,7 @@ Color light_from_one_emitter(Tracer& tracer, Sampler& sampler, const Vertex& ver
 //
 // [1] Talbot, Cline and Egbert 2005, "Importance Resampling for Global Illumination", EGSR.
 Color light_by_resampling(Tracer& tracer, Sampler& sampler, const Vertex& vertex, Heuristic heuristic,
-                          int candidates);
+                          int candidates, float directions = 1.f);
 
 // One emitter among those that no BSDF sample can reach: point and directional lights.
 Color light_from_one_delta_emitter(Tracer& tracer, Sampler& sampler, const Vertex& vertex);

@@ -27,7 +27,7 @@ public:
     }
     float emission_weight(const PathState& path, float light_pdf) const
     {
-        return estimator_.emission_weight(path, light_pdf);
+        return estimator_.weight_of_look(path, light_pdf);
     }
     Color direct(Tracer&, Sampler&, const Vertex&) const { return Color(0.f); }
     std::optional<BsdfSample> scatter(Sampler& sampler, const Vertex& vertex) const

@@ -27,12 +27,12 @@ namespace plumb {
 /// Parameters:
 ///
 ///     maxDepth            integer   surface bounces: 0 shows emitters only, 1 direct light, -1 everything   (default -1)
-///     rrDepth             integer   bounces before roulette starts   (default 3; with termination-param 0)
+///     rrDepth             integer   bounces before roulette starts   (default 1; with termination-param 0)
 ///     countPasses   boolean   whether passing straight through a mask costs a bounce, of shadow rays as well   (default false)
 ///     hideEmitters        boolean   the camera sees through surfaces that emit, and no environment; mirrors show them   (default false)
 ///
 /// A path of throughput t (undone what refraction does to radiance) survives roulette with probability
-/// min(max(t), 1), and with no more than 0.99 after 128 bounces.
+/// min(max(t) / 0.4, 1), and with no more than 0.99 after 128 bounces.
 ///
 /// Parameters of the configurable path tracer:
 ///

@@ -12,6 +12,10 @@ constexpr int largest_depth = 1'000'000'000;
 constexpr int uncapped_bounces = 128;
 constexpr float largest_survival = 0.99f;
 
+// Paths of more throughput go on; others are as likely to as they have a part of it, and then have it. If survivors had all of their
+// light again, the few of many bounces would weigh as much as the many of few.
+constexpr float kept_throughput = 0.4f;
+
 } // namespace
 
 PathLimits::PathLimits(const Params& params)
@@ -49,9 +53,11 @@ Color PathEstimator::direct(Tracer& tracer, Sampler& sampler, const PathState& p
     case LightStrategy::path: return light_from_one_delta_emitter(tracer, sampler, vertex);
     case LightStrategy::emitter_samples: return light_from_one_emitter(tracer, sampler, vertex);
     case LightStrategy::both:
+        const bool is_looked_from = tracer.leaves_out_seen_lamps() && path.would_see_by_gloss(vertex);
+        const float directions = is_looked_from ? static_cast<float>(looks_) : 1.f;
         if (candidates_ > 1 && path.would_be_first_glossy(vertex))
-            return light_by_resampling(tracer, sampler, vertex, heuristic_, candidates_);
-        return light_from_one_emitter(tracer, sampler, vertex, heuristic_);
+            return light_by_resampling(tracer, sampler, vertex, heuristic_, candidates_, directions);
+        return light_from_one_emitter(tracer, sampler, vertex, heuristic_, directions);
     }
     return Color(0.f);
 }
@@ -59,7 +65,7 @@ Color PathEstimator::direct(Tracer& tracer, Sampler& sampler, const PathState& p
 float PathEstimator::survival(const PathState& path, int bounces) const
 {
     if (bounces <= limits_.roulette_depth) return 1.f;
-    return std::min(max_component(path.throughput) * path.eta_scale,
+    return std::min(max_component(path.throughput) * path.eta_scale / kept_throughput,
                     bounces <= uncapped_bounces ? 1.f : largest_survival);
 }
 

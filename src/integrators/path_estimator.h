@@ -13,7 +13,7 @@ namespace plumb {
 // How long paths get.
 struct PathLimits {
     int max_depth = -1;         // surface bounces; -1: any number
-    int roulette_depth = 3;     // bounces before roulette starts
+    int roulette_depth = 1;     // bounces before roulette starts
     bool count_passes = false;  // through null lobes, as bounces
     bool hide_emitters = false; // from the camera
 
@@ -28,10 +28,11 @@ public:
     // (and the path counts only what no such sample could find), or both.
     enum class LightStrategy { path, emitter_samples, both };
 
-    // candidates: with both, light samples at the first glossy vertex, of which one is followed.
+    // candidates: with both, light samples at the first glossy vertex, of which one is followed. looks: with both, how many paths look for
+    // lamps that the camera sees, for each sample that leaves them out (Integrator::look()).
     explicit PathEstimator(LightStrategy finder, PathLimits limits = {},
-                           Heuristic heuristic = Heuristic::power, int candidates = 1)
-        : strategy_(finder), limits_(limits), heuristic_(heuristic), candidates_(candidates)
+                           Heuristic heuristic = Heuristic::power, int candidates = 1, int looks = 1)
+        : strategy_(finder), limits_(limits), heuristic_(heuristic), candidates_(candidates), looks_(looks)
     {}
     // Direct light only: one bounce.
     static PathEstimator direct_light(LightStrategy finder);
@@ -59,9 +60,12 @@ public:
     }
     float emission_weight(const PathState& path, float light_pdf) const
     {
-        if (strategy_ != LightStrategy::both) return 1.f;
-        const float samples = path.is_first_glossy ? static_cast<float>(candidates_) : 1.f;
-        return mis_weight(heuristic_, path.pdf, samples * light_pdf);
+        return emission_weight(path, light_pdf, 1.f);
+    }
+    // The same of a path of look(). All of those that see a lamp chose their last direction at the first surface that is glossy.
+    float weight_of_look(const PathState& path, float light_pdf) const
+    {
+        return emission_weight(path, light_pdf, static_cast<float>(looks_));
     }
     Color direct(Tracer& tracer, Sampler& sampler, const PathState& path, const Vertex& vertex) const;
     std::optional<BsdfSample> scatter(Sampler& sampler, const Vertex& vertex) const
@@ -75,10 +79,18 @@ public:
     Heuristic heuristic() const { return heuristic_; }
 
 private:
+    float emission_weight(const PathState& path, float light_pdf, float directions) const
+    {
+        if (strategy_ != LightStrategy::both) return 1.f;
+        const float samples = path.is_first_glossy ? static_cast<float>(candidates_) : 1.f;
+        return mis_weight(heuristic_, directions * path.pdf, samples * light_pdf);
+    }
+
     LightStrategy strategy_;
     PathLimits limits_;
     Heuristic heuristic_;
     int candidates_;
+    int looks_;
     const SkyGuide* sky_ = nullptr;
 };
 

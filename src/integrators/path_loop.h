@@ -31,7 +31,7 @@
 namespace plumb {
 
 // Bounces after which the camera sees a lamp (PathState::sees).
-inline constexpr int longest_look = 8;
+inline constexpr int longest_look = 16;
 
 // What a path remembers of its way.
 struct PathState {
@@ -55,6 +55,11 @@ struct PathState {
     bool is_first_glossy = false; // and the last is the first of those
 
     bool would_be_first_glossy(const Vertex& vertex) const { return !has_glossy && vertex.is_glossy(); }
+    // Whether what a direction other than delta meets from there is seen by the camera.
+    bool would_see_by_gloss(const Vertex& vertex) const
+    {
+        return sees && !sees_by_gloss && vertex.is_glossy() && sees_after < longest_look;
+    }
 
     // Light that lies behind a pass is still looked for from the last vertex.
     void pass(const BsdfSample& next) { throughput *= next.weight; }

@@ -8,7 +8,7 @@ namespace plumb {
 /// All light, by paths that follow the BSDFs: `path` under the name that the EPFL and ETH courses use.
 ///
 ///     maxDepth   integer   surface bounces: 0 shows emitters only, 1 direct light, -1 everything   (default -1)
-///     rrDepth    integer   bounces before Russian roulette starts   (default 3)
+///     rrDepth    integer   bounces before Russian roulette starts   (default 1)
 ///     countPasses   boolean   whether passing straight through a mask costs a bounce, of shadow rays as well   (default false)
 ///     hideEmitters   boolean   the camera sees through surfaces that emit, and no environment; mirrors show them
 ///                              (default false)

@@ -29,7 +29,7 @@ namespace plumb {
 /// whether a sample meets the lamp. There each sample looks for it with rays of its own, which are followed no further.
 ///
 ///     maxDepth    integer   surface bounces: 0 shows emitters only, 1 direct light, -1 everything   (default -1)
-///     rrDepth     integer   bounces before Russian roulette starts   (default 3)
+///     rrDepth     integer   bounces before Russian roulette starts   (default 1)
 ///     countPasses   boolean   whether passing straight through a mask costs a bounce, of shadow rays as well   (default false)
 ///     hideEmitters   boolean   the camera sees through surfaces that emit, and no environment; mirrors show them
 ///                              (default false)
@@ -47,9 +47,9 @@ namespace plumb {
 class PathMis final : public Integrator, public Guided {
 public:
     explicit PathMis(const Params& params)
-        : estimator_(PathEstimator::LightStrategy::both, PathLimits(params), heuristic_of(params),
-                     static_cast<int>(params.integer("candidates", 4, Range::closed(1, 64)))),
-          outline_rays_(static_cast<int>(params.integer("outlineRays", 8, Range::closed(0, 64)))),
+        : outline_rays_(static_cast<int>(params.integer("outlineRays", 8, Range::closed(0, 64)))),
+          estimator_(PathEstimator::LightStrategy::both, PathLimits(params), heuristic_of(params),
+                     static_cast<int>(params.integer("candidates", 4, Range::closed(1, 64))), outline_rays_),
           may_guide_(params.boolean("guide", true) && estimator_.max_depth() != 0)
     {}
 
@@ -87,8 +87,8 @@ public:
     }
 
 private:
-    mutable PathEstimator estimator_;
     int outline_rays_;
+    mutable PathEstimator estimator_;
     bool may_guide_;
     mutable std::once_flag trained_;
     // What is learnt.

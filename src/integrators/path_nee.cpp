@@ -11,7 +11,7 @@ namespace plumb {
 /// no emitter sample could have found it: at the first hit, and after a delta bounce (mirror, smooth glass).
 ///
 ///     maxDepth   integer   surface bounces: 0 shows emitters only, 1 direct light, -1 everything   (default -1)
-///     rrDepth    integer   bounces before Russian roulette starts   (default 3)
+///     rrDepth    integer   bounces before Russian roulette starts   (default 1)
 ///     countPasses   boolean   whether passing straight through a mask costs a bounce, of shadow rays as well   (default false)
 ///     hideEmitters   boolean   the camera sees through surfaces that emit, and no environment; mirrors show them
 ///                              (default false)
