@@ -25,7 +25,8 @@ Color light_from(Tracer& tracer, Sampler& sampler, const Vertex& vertex, const E
 }
 
 // Of one of so many emitter samples, against BSDF samples of density bsdf_pdf ([1], equations 9.13 and 9.14).
-float weight_of(const EmitterSample& light, Heuristic heuristic, float samples, float bsdf_pdf, float directions)
+float weight_of(const EmitterSample& light, Heuristic heuristic, float samples, float bsdf_pdf,
+                float directions)
 {
     if (light.is_delta) return 1.f;
     const float looking = light.distance == infinity ? 1.f : directions;

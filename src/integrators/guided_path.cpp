@@ -28,8 +28,6 @@ float GuidedPath::chain_weight(const GuidedPathState& path) const
 Color GuidedPath::with_waiting(Tracer& tracer, GuidedPathState& path, int depth, Color sum) const
 {
     if (path.waiting.empty()) return sum;
-    std::stable_sort(path.waiting.begin(), path.waiting.end(),
-                     [](const auto& a, const auto& b) { return a.depth < b.depth; });
     auto next = path.waiting.begin();
     for (; next != path.waiting.end() && next->depth <= depth; ++next) {
         sum += next->contribution;
@@ -82,8 +80,7 @@ void GuidedPath::follow(Tracer& tracer, GuidedPathState& path, Chain chain) cons
             if (!contribution.is_black()) {
                 if (tracer.logging())
                     tracer.log_contribution(PathEvent::Kind::emission, "emission", contribution);
-                path.waiting.push_back(
-                    {chain.depth, hit ? hit->emitter_index : environment_index, contribution});
+                path.wait({chain.depth, hit ? hit->emitter_index : environment_index, contribution});
             }
         }
         if (!hit || (hit->emitter && scene.emitters_absorb())) return;

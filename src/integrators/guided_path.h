@@ -11,6 +11,9 @@
 #include "integrators/caustic_guide.h"
 #include "integrators/path_estimator.h"
 
+#include <algorithm>
+#include <vector>
+
 namespace plumb {
 
 struct GuidedPathState : PathState {
@@ -49,7 +52,13 @@ struct GuidedPathState : PathState {
         std::uint32_t emitter;
         Color contribution;
     };
-    std::vector<Waiting> waiting;
+    std::vector<Waiting> waiting; // by depth, the first found first
+
+    void wait(const Waiting& found)
+    {
+        const auto is_before = [](const Waiting& a, const Waiting& b) { return a.depth < b.depth; };
+        waiting.insert(std::upper_bound(waiting.begin(), waiting.end(), found, is_before), found);
+    }
 };
 
 class GuidedPath : public PathEstimator {

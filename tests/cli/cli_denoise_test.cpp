@@ -118,17 +118,18 @@ TEST_CASE("a checkpoint is viewed as the image so far, and not denoised", "[cli]
 {
     const DenoiseDirectory directory;
     REQUIRE(directory
-                .run({"scene.xml", "--spp", "8", "--part", "1/2", "--part-by", "samples", "--aov", "albedo", "-o",
-                      "part.exr"})
+                .run({"scene.xml", "--spp", "8", "--part", "1/2", "--part-by", "samples", "--aov", "albedo",
+                      "-o", "part.exr"})
                 .exit_code == 0);
     const RunResult refused = directory.fake({"denoise", "part.exr", "-o", "d.png"});
     CHECK(refused.exit_code == 1);
-    CHECK(refused.err ==
-          "error: cannot denoise a checkpoint or a partial render, whose layers are sums; 'renderer merge FILE -o "
-          "IMAGE.exr', with --allow-missing if it is not over, makes an image of it\n");
+    CHECK(refused.err == "error: cannot denoise a checkpoint or a partial render, whose layers are sums; "
+                         "'renderer merge FILE -o "
+                         "IMAGE.exr', with --allow-missing if it is not over, makes an image of it\n");
     CHECK(!std::filesystem::exists(directory / "d.png"));
 
-    REQUIRE(directory.run({"merge", "part.exr", "--allow-missing", "-o", "m.exr", "-o", "m.png"}).exit_code == 0);
+    REQUIRE(directory.run({"merge", "part.exr", "--allow-missing", "-o", "m.exr", "-o", "m.png"}).exit_code ==
+            0);
     REQUIRE(directory.run({"view", "part.exr", "-o", "v.png"}).exit_code == 0);
     const Image merged = read_image(directory / "m.png", false);
     const Image viewed = read_image(directory / "v.png", false);

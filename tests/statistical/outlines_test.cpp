@@ -195,9 +195,11 @@ TEST_CASE("where lamps have outlines, rays that look for them take most of the n
 
 TEST_CASE("what looks for lamps finds what the rest leaves out", "[statistical][outlines]")
 {
-    // A metal plate that is found by directions and by emitter samples alike, a mirror and a lamp to see.
+    // A metal plate that is found by directions and by emitter samples alike, a mirror and a lamp to see; and a sky, for which
+    // several looks for lamps do not look.
     LittleScene little;
-    little.rectangle(Vec3f(0.f), 6.f, 6.f, Vec3f(0, 1, 0), rough_metal)
+    little.environment(Color(0.3f))
+        .rectangle(Vec3f(0.f), 6.f, 6.f, Vec3f(0, 1, 0), rough_metal)
         .rectangle(Vec3f(2.f, 1.f, 0.f), 3.f, 3.f, Vec3f(-1, 0, 0), mirror())
         .rectangle(Vec3f(0.f, 1.5f, -1.5f), 1.5f, 1.f, Vec3f(0, 0, 1), diffuse(0.4f), Color(3.f));
     const Scene lit = little.build();

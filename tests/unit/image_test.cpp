@@ -308,7 +308,8 @@ TEST_CASE("what is neither colour nor alpha is left out of formats that name no 
     Image image({0, 0, 16, 16}, 16, 16, one.channels);
     for (int y = 0; y < 16; ++y)
         for (int x = 0; x < 16; ++x)
-            for (int c = 0; c < image.channel_count(); ++c) image.pixel(x, y)[c] = c < one.colors ? 0.25f : 0.f;
+            for (int c = 0; c < image.channel_count(); ++c)
+                image.pixel(x, y)[c] = c < one.colors ? 0.25f : 0.f;
     for (const std::string& name : written_formats({"a.png", "a.jpg", "a.hdr", "a.tif"})) {
         CAPTURE(name, one.channels);
         const bool holds_alpha = name == "a.png" || name == "a.tif";

@@ -234,7 +234,8 @@ TEST_CASE("techniques find what they can", "[unit][split]")
     const auto means = [](const std::string& type) {
         // Without roulette, whose numbers depend on what was drawn for emitters.
         const Film film = render_split(
-            room_with(integrator(type, "<integer name='rrDepth' value='4'/><integer name='maxDepth' value='4'/>")),
+            room_with(
+                integrator(type, "<integer name='rrDepth' value='4'/><integer name='maxDepth' value='4'/>")),
             {"technique"}, 64);
         std::vector<double> found(3);
         for_each_pixel(film, [&](Vec2i pixel) {
