@@ -6,6 +6,7 @@
 // There a sample meets a lamp or does not, and the lamp is far brighter than what is around it: a few pixels have most of an
 // image's squared error. In them, the part V of a sample's light that is a lamp seen directly, in mirrors or in highlights
 // (Integrator::look()) is left out of the sample and estimated apart, by the mean of several shorter samples of V alone [1].
+// In highlights emitter samples find lamps, too: there V has the weight of so many samples (path_estimator.h).
 // Where that is, fixed samples decide that are not in the image, so that its mean remains what it was.
 //
 // [1] Arvo and Kirk 1990, "Particle Transport and Image Synthesis", SIGGRAPH: splitting

@@ -36,7 +36,8 @@ public:
     // integrators that have look().
     virtual int outline_rays() const { return 0; }
     // An estimate of a part of radiance(): the light of lamps that the camera sees along `ray`, directly, by delta bounces, or
-    // by one glossy bounce after those. radiance() leaves this part out where the tracer says so.
+    // by one glossy bounce after those. radiance() leaves this part out where the tracer says so. How the two share light that both can
+    // find may depend on outline_rays().
     virtual Color look(Tracer&, Sampler&, const Ray&) const { return Color(0.f); }
 
     // Whether a scene without lamps is black.
