@@ -179,9 +179,9 @@ void check_denoiser()
 Image denoised(const Image& image, int threads)
 {
     if (std::ranges::any_of(image.metadata, [](const auto& entry) { return entry.first == "plumb:state"; }))
-        throw Error("cannot denoise a checkpoint or a partial render, whose layers are sums; 'renderer merge "
-                    "FILE -o IMAGE.exr', with "
-                    "--allow-missing if it is not over, makes an image of it");
+        throw Error(
+            "cannot denoise a checkpoint or a partial render, whose layers are sums; 'renderer merge FILE "
+            "-o IMAGE.exr', with --allow-missing if it is not over, makes an image of it");
     const auto places = find_channels(image, {"R", "G", "B"});
     if (!places) throw Error("cannot denoise an image without the channels R, G and B");
     if (const std::string before = denoised_text(image.metadata); !before.empty())

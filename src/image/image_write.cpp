@@ -26,24 +26,26 @@ namespace {
 
 enum class Encoding { linear_float, srgb_8bit };
 
+// What a format holds: any channel, and that an image is a part of a larger one; or grey or red, green and blue, with alpha or without.
+enum class Channels { any, colors_and_alpha, colors };
+
 struct Format {
     std::string_view extension;
     Encoding encoding;
-    bool keeps_all; // channels beyond red, green and blue; and that an image is a part of a larger one
+    Channels channels;
     std::string_view compression;
     std::string_view fast_compression = compression;
     bool not_in_all_modules = false;
-    bool has_alpha = true;
 };
 
 constexpr Format formats[] = {
-    {".exr", Encoding::linear_float, true, "zip", "rle"},
-    {".hdr", Encoding::linear_float, false, "", "", false, false},
-    {".tif", Encoding::linear_float, false, "zip", "zip", true},
-    {".tiff", Encoding::linear_float, false, "zip", "zip", true},
-    {".png", Encoding::srgb_8bit, false, ""},
-    {".jpg", Encoding::srgb_8bit, false, "jpeg:95", "jpeg:95", false, false},
-    {".jpeg", Encoding::srgb_8bit, false, "jpeg:95", "jpeg:95", false, false},
+    {".exr", Encoding::linear_float, Channels::any, "zip", "rle"},
+    {".hdr", Encoding::linear_float, Channels::colors, ""},
+    {".tif", Encoding::linear_float, Channels::colors_and_alpha, "zip", "zip", true},
+    {".tiff", Encoding::linear_float, Channels::colors_and_alpha, "zip", "zip", true},
+    {".png", Encoding::srgb_8bit, Channels::colors_and_alpha, ""},
+    {".jpg", Encoding::srgb_8bit, Channels::colors, "jpeg:95"},
+    {".jpeg", Encoding::srgb_8bit, Channels::colors, "jpeg:95"},
 };
 
 [[noreturn]] void fail(const std::filesystem::path& path, std::string_view reason)
@@ -74,17 +76,16 @@ void check_module_writes(const std::filesystem::path& path, const Format& format
     }
 }
 
-// Formats that name no channels hold what they take for colours: grey or red, green and blue, and some of them alpha. Layers, which
-// come last, and numbers of other kinds, as depth, are for formats that hold any channel.
+// Layers, which come last, and other numbers, as depth, go into formats that hold any channel.
 int channels_written(const Image& image, const Format& format)
 {
-    if (format.keeps_all) return image.channel_count();
+    if (format.channels == Channels::any) return image.channel_count();
     const std::vector<std::string>& names = image.channel_names();
     const auto first_of_layers = std::find_if(names.begin(), names.end(), is_layer_channel);
     const auto count = static_cast<int>(first_of_layers - names.begin());
     const int colors = count >= 3 ? 3 : std::min(count, 1);
     const bool has_alpha = colors < count && names[static_cast<std::size_t>(colors)] == "A";
-    return has_alpha && format.has_alpha ? colors + 1 : colors;
+    return has_alpha && format.channels == Channels::colors_and_alpha ? colors + 1 : colors;
 }
 
 // Grey and colours are developed; what else there is, alpha, is only encoded.
@@ -144,9 +145,10 @@ std::vector<unsigned char> encode(const std::string& name, const Image& image, c
     const Metadata metadata = with_color_space(image, format);
     ImageFile file{.name = name, .metadata = metadata};
     file.channels.assign(image.channel_names().begin(), image.channel_names().begin() + channels);
-    file.data = format.keeps_all ? data : PixelRect{0, 0, data.width, data.height};
-    file.full_width = format.keeps_all ? image.full_width() : data.width;
-    file.full_height = format.keeps_all ? image.full_height() : data.height;
+    const bool keeps_windows = format.channels == Channels::any;
+    file.data = keeps_windows ? data : PixelRect{0, 0, data.width, data.height};
+    file.full_width = keeps_windows ? image.full_width() : data.width;
+    file.full_height = keeps_windows ? image.full_height() : data.height;
     file.format.emplace_back("oiio:ColorSpace", is_float ? "Linear" : "sRGB");
     const std::string_view compression =
         packing == Packing::fast ? format.fast_compression : format.compression;

@@ -24,7 +24,7 @@ Color light_from(Tracer& tracer, Sampler& sampler, const Vertex& vertex, const E
     return light_through(tracer, vertex, *light, vertex.evaluate(light->wi).f_cos);
 }
 
-// Of one of so many emitter samples, against BSDF samples of density bsdf_pdf ([1], equations 9.13 and 9.14).
+// Of one of so many emitter samples, against BSDF samples of density bsdf_pdf ([1]).
 float weight_of(const EmitterSample& light, Heuristic heuristic, float samples, float bsdf_pdf,
                 float directions)
 {

@@ -55,11 +55,9 @@ struct PathState {
     bool is_first_glossy = false; // and the last is the first of those
 
     bool would_be_first_glossy(const Vertex& vertex) const { return !has_glossy && vertex.is_glossy(); }
-    // Whether what a direction other than delta meets from there is seen by the camera.
-    bool would_see_by_gloss(const Vertex& vertex) const
-    {
-        return sees && !sees_by_gloss && vertex.is_glossy() && sees_after < longest_look;
-    }
+    // Whether the camera sees what a direction from the vertex meets: a delta one, or any other.
+    bool would_see_by_delta() const { return sees && !sees_by_gloss && sees_after < longest_look; }
+    bool would_see_by_gloss(const Vertex& vertex) const { return would_see_by_delta() && vertex.is_glossy(); }
 
     // Light that lies behind a pass is still looked for from the last vertex.
     void pass(const BsdfSample& next) { throughput *= next.weight; }
@@ -73,8 +71,8 @@ struct PathState {
         delta = next.is_delta();
         is_view = is_view && next.is_delta() && next.is_transmission() && vertex.goes_straight(next);
         is_chosen = is_chosen || !next.is_delta();
-        sees =
-            sees && !sees_by_gloss && (next.is_delta() || vertex.is_glossy()) && ++sees_after <= longest_look;
+        sees = next.is_delta() ? would_see_by_delta() : would_see_by_gloss(vertex);
+        ++sees_after;
         sees_by_gloss = !next.is_delta();
         is_first_glossy = would_be_first_glossy(vertex);
         has_glossy = has_glossy || is_first_glossy;
