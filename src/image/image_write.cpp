@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <new>
 #include <span>
@@ -100,7 +101,7 @@ std::vector<std::uint8_t> encode_for_screens(const Image& image, int channels, c
     std::vector<std::uint8_t> bytes(pixels * written);
     const Developer develop(development);
     const Developer only_encode({});
-    const auto byte = [](float value) { return static_cast<std::uint8_t>(value * 255.f + 0.5f); };
+    const auto byte = [](float value) { return static_cast<std::uint8_t>(std::floor(value * 255.f + 0.5f)); };
     for (std::size_t i = 0; i < pixels; ++i) {
         const float* const in = linear + i * given;
         std::uint8_t* const out = bytes.data() + i * written;
