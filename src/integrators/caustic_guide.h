@@ -31,10 +31,12 @@ struct GuidedDirection {
 class GuideCell {
 public:
     static constexpr std::size_t most_photons = 32;
+    static constexpr float most_directions = 8.f; // of a vertex
 
     // From a point, in world space. u_choice chooses the kernel, u the direction in it. Nothing where rounding has lost it.
     std::optional<GuidedDirection> sample(const Vec3f& from, float u_choice, const Vec2f& u) const;
-    // How often a guided direction is worth its rays, as a chance: where more light arrives.
+    // How many guided directions of a path that has lost nothing are worth their rays, as an expected number, most_directions at most:
+    // more where more light arrives.
     float strength() const { return strength_; }
     // The density of sample(from), of a unit vector.
     float pdf(const Vec3f& from, const Vec3f& direction) const;
@@ -60,8 +62,11 @@ public:
     CausticGuide() = default;
     CausticGuide(CausticGuide&&) = default; // the leaves point to its cells, so there are no copies
     CausticGuide& operator=(CausticGuide&&) = default;
-    // A pure function of the scene.
-    static CausticGuide learn(const Scene& scene, int threads);
+    // A pure function of the scene and of how many photons it is learnt from: as many as an image has pixels take about as long as
+    // one or two samples of each. Fewer than fewest_emitted teach too little, and more than most_emitted hardly more.
+    static constexpr std::size_t fewest_emitted = 65'536;
+    static constexpr std::size_t most_emitted = 131'072;
+    static CausticGuide learn(const Scene& scene, std::size_t photons, int threads);
 
     bool is_on() const { return facts_.cells > 0; }
     const GuideFacts& facts() const { return facts_; }

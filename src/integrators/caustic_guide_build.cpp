@@ -75,13 +75,15 @@ double brightness(std::span<const CausticPhoton> photons)
     return diagonal2 > 0.0 ? static_cast<double>(photons.size()) / diagonal2 : 0.0;
 }
 
-// Guided directions are worth their rays where there is light: the noise that they remove goes with it. Measured on two
-// scenes: between a constant and the square root of brightness, which costs less where it is bright and loses more where it is dark.
+// Guided directions are worth their rays where there is light: the noise that they remove goes with it. Measured on two scenes, for
+// exponents between 1/4 and 1.
 float strength_of(double brightness, double median)
 {
-    constexpr double weakest = 0.05;
+    constexpr double weakest = 1.0 / 3.0;
+    constexpr double strongest = GuideCell::most_directions;
     if (!(median > 0.0)) return 1.f;
-    return static_cast<float>(std::clamp(std::sqrt(std::sqrt(brightness / median)), weakest, 1.0));
+    const double root = std::sqrt(brightness / median);
+    return static_cast<float>(std::clamp(root * std::sqrt(root), weakest, strongest)); // to the power of 3/4
 }
 
 // What a cell has, and what it does for its photons.
@@ -174,11 +176,11 @@ private:
     std::vector<CausticPhoton> photons_;
 };
 
-CausticGuide CausticGuide::learn(const Scene& scene, int threads)
+CausticGuide CausticGuide::learn(const Scene& scene, std::size_t photons, int threads)
 {
     const auto start = std::chrono::steady_clock::now();
     CausticGuide guide;
-    CausticPhotons found = trace_caustic_photons(scene, threads);
+    CausticPhotons found = trace_caustic_photons(scene, photons, threads);
     guide.facts_.emitted = found.emitted;
     guide.facts_.arrived = found.photons.size();
     if (!found.photons.empty()) GuideBuilder(std::move(found.photons)).build(guide, threads);

@@ -17,7 +17,6 @@ namespace plumb {
 namespace {
 
 constexpr std::size_t photons_of_a_part = 1024;
-constexpr std::size_t parts = 128;
 // If fewer photons of the first parts arrive, there is nothing to learn, and no more are emitted.
 constexpr std::size_t first_parts = 16;
 constexpr std::size_t fewest_of_first_parts = 32;
@@ -231,7 +230,7 @@ void trace_photon(const Scene& scene, const PhotonSource& source, std::uint64_t 
 
 } // namespace
 
-CausticPhotons trace_caustic_photons(const Scene& scene, int threads)
+CausticPhotons trace_caustic_photons(const Scene& scene, std::size_t photons, int threads)
 {
     const PhotonSource source(scene);
     CausticPhotons found;
@@ -244,11 +243,12 @@ CausticPhotons trace_caustic_photons(const Scene& scene, int threads)
                 trace_photon(scene, source, (first + part) * photons_of_a_part + i, of_parts[part]);
         });
         found.emitted = end * photons_of_a_part;
-        for (const std::vector<CausticPhoton>& photons : of_parts)
-            found.photons.insert(found.photons.end(), photons.begin(), photons.end());
+        for (const std::vector<CausticPhoton>& arrived : of_parts)
+            found.photons.insert(found.photons.end(), arrived.begin(), arrived.end());
     };
-    emit(0, first_parts);
-    if (found.photons.size() >= fewest_of_first_parts) emit(first_parts, parts);
+    const std::size_t parts = (photons + photons_of_a_part - 1) / photons_of_a_part;
+    emit(0, std::min(first_parts, parts));
+    if (parts > first_parts && found.photons.size() >= fewest_of_first_parts) emit(first_parts, parts);
     return found;
 }
 

@@ -29,8 +29,8 @@ struct CausticPhotons {
     std::uint64_t emitted = 0;
 };
 
-// Emits as many photons as it says there, and keeps those that arrive; none where no surface has a delta lobe or no emitter can be
-// met by a path. A pure function of the scene: no threads, no seed. threads as in parallel_for.
-CausticPhotons trace_caustic_photons(const Scene& scene, int threads);
+// Emits so many photons, rounded up to a multiple of 1024, and keeps those that arrive; none where no surface has a delta lobe or
+// no emitter can be met by a path. A pure function of the scene and their number: no threads, no seed. threads as in parallel_for.
+CausticPhotons trace_caustic_photons(const Scene& scene, std::size_t photons, int threads);
 
 } // namespace plumb

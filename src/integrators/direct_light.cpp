@@ -4,10 +4,8 @@
 
 #include "integrators/direct_light.h"
 
+#include "integrators/spread_points.h"
 #include "plumb/base/error.h"
-#include "plumb/sampling/sampling.h"
-
-#include <cmath>
 
 #include <fmt/format.h>
 
@@ -31,24 +29,6 @@ float weight_of(const EmitterSample& light, Heuristic heuristic, float samples, 
     if (light.is_delta) return 1.f;
     const float looking = light.distance == infinity ? 1.f : directions;
     return mis_weight(heuristic, samples * light.pdf, looking * bsdf_pdf);
-}
-
-struct EmitterNumbers {
-    double choice;
-    Vec2f u;
-};
-
-// The numbers of the i-th of some candidates, each of which is uniform: the choice is spread evenly, the places as in Roberts
-// 2018, "The Unreasonable Effectiveness of Quasirandom Sequences".
-EmitterNumbers shifted(double choice, const Vec2f& u, int i, int count)
-{
-    const double step = static_cast<double>(i);
-    const auto wrapped = [](double x) { return x - std::floor(x); };
-    const auto wrapped_float = [&](float x, double by) {
-        return std::min(static_cast<float>(wrapped(static_cast<double>(x) + by)), one_minus_epsilon);
-    };
-    return {wrapped(choice + step / count),
-            {wrapped_float(u.x, 0.7548776662466927 * step), wrapped_float(u.y, 0.5698402909980532 * step)}};
 }
 
 } // namespace
@@ -110,8 +90,8 @@ Color light_by_resampling(Tracer& tracer, Sampler& sampler, const Vertex& vertex
     Color f_cos;
     float sum = 0.f;
     for (int i = 0; i < candidates; ++i) {
-        const auto [choice_i, u_i] = shifted(u_choice, u, i, candidates);
-        const auto light = tracer.scene().sample_emitter(receiver, choice_i, u_i);
+        const double choice_i = wrapped(u_choice + static_cast<double>(i) / candidates);
+        const auto light = tracer.scene().sample_emitter(receiver, choice_i, shifted(u, i));
         if (!light) continue;
         const BsdfValue value = vertex.evaluate(light->wi);
         const float brightness = luminance(value.f_cos * light->radiance);

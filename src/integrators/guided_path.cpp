@@ -5,9 +5,11 @@
 #include "integrators/guided_path.h"
 
 #include "integrators/caustic_photons.h"
+#include "integrators/spread_points.h"
 #include "samplers/hashed.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -22,7 +24,7 @@ float GuidedPath::chain_weight(const GuidedPathState& path) const
 {
     if (!path.cell || path.chain > longest_chain) return 1.f;
     return mis_weight(heuristic(), path.pdf_of_direction,
-                      path.chance * path.cell->pdf(path.position, path.direction));
+                      path.directions * path.cell->pdf(path.position, path.direction));
 }
 
 Color GuidedPath::with_waiting(Tracer& tracer, GuidedPathState& path, int depth, Color sum) const
@@ -48,23 +50,30 @@ void GuidedPath::find_chains(Tracer& tracer, Sampler& sampler, GuidedPathState& 
     const float u_chance = sampler.next_1d();
     const Vec2f u_direction = sampler.next_2d();
     const auto key = static_cast<std::uint64_t>(sampler.next_choice() * 0x1p53);
-    path.chance_here =
-        std::min(1.f, max_component(path.throughput) * path.eta_scale * path.cell_here->strength());
+    // Throughput has no bound where surfaces reflect more than they receive.
+    const float worth = std::min(GuideCell::most_directions, max_component(path.throughput) * path.eta_scale *
+                                                                 path.cell_here->strength());
+    path.directions_here = worth < 1.f ? worth : std::round(worth);
     if (max_depth() - bounces == 1) return; // light sampling finds what is one bounce away
-    if (!(u_chance < path.chance_here)) return;
-    const float u_choice = std::min(u_chance / path.chance_here, one_minus_epsilon); // uniform again
-    const auto guided = path.cell_here->sample(vertex.at().position, u_choice, u_direction);
-    if (!guided) return;
-    const BsdfValue value = vertex.evaluate(guided->direction);
-    if (value.f_cos.is_black()) return;
-    if (tracer.logging())
-        tracer.log(PathEvent::Kind::direct,
-                   fmt::format("a guided direction: pdf {:.6g}, of the BSDF {:.6g}", guided->pdf, value.pdf));
-    const float density = path.chance_here * guided->pdf;
-    const float weight = mis_weight(heuristic(), density, value.pdf); // [1]
-    follow(tracer, path,
-           {vertex.at().spawn_ray(guided->direction), path.throughput * value.f_cos * (weight / density),
-            vertex.receiver(), bounces + 1, key});
+    const int count = worth < 1.f ? (u_chance < worth ? 1 : 0) : static_cast<int>(path.directions_here);
+    const float first = worth < 1.f ? u_chance / worth : u_chance; // uniform again
+    for (int i = 0; i < count; ++i) {
+        const float u_choice = (first + static_cast<float>(i)) / static_cast<float>(count);
+        const auto guided = path.cell_here->sample(
+            vertex.at().position, std::min(u_choice, one_minus_epsilon), shifted(u_direction, i));
+        if (!guided) continue;
+        const BsdfValue value = vertex.evaluate(guided->direction);
+        if (value.f_cos.is_black()) continue;
+        if (tracer.logging())
+            tracer.log(
+                PathEvent::Kind::direct,
+                fmt::format("a guided direction: pdf {:.6g}, of the BSDF {:.6g}", guided->pdf, value.pdf));
+        const float density = path.directions_here * guided->pdf;
+        const float weight = mis_weight(heuristic(), density, value.pdf); // [1]
+        follow(tracer, path,
+               {vertex.at().spawn_ray(guided->direction), path.throughput * value.f_cos * (weight / density),
+                vertex.receiver(), bounces + 1, key + static_cast<std::uint64_t>(i)});
+    }
 }
 
 void GuidedPath::follow(Tracer& tracer, GuidedPathState& path, Chain chain) const

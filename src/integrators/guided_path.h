@@ -28,17 +28,17 @@ struct GuidedPathState : PathState {
         }
         chain = 0;
         cell = cell_here;
-        chance = chance_here;
+        directions = directions_here;
         pdf_of_direction = next.pdf;
         position = vertex.at().position;
         direction = vertex.to_world(next);
     }
 
     const GuideCell* cell_here = nullptr; // of the vertex that is being looked at
-    float chance_here = 0.f;              // that a guided direction is taken there
+    float directions_here = 0.f;          // how many guided ones are taken there, expected
     // Of the last vertex whose direction was not delta.
     const GuideCell* cell = nullptr;
-    float chance = 0.f;
+    float directions = 0.f;
     Vec3f position{0.f};
     Vec3f direction{0.f}; // in world space
     float pdf_of_direction = 0.f;

@@ -9,8 +9,8 @@ namespace plumb {
 
 class LookPath {
 public:
-    // The estimator must live as long.
-    explicit LookPath(const PathEstimator& estimator) : estimator_(estimator) {}
+    // The estimator must live as long. looks: how many there are of each sample.
+    LookPath(const PathEstimator& estimator, int looks) : estimator_(estimator), looks_(looks) {}
 
     Color look(Tracer& tracer, Sampler& sampler, const Ray& ray) const
     {
@@ -27,7 +27,7 @@ public:
     }
     float emission_weight(const PathState& path, float light_pdf) const
     {
-        return estimator_.weight_of_look(path, light_pdf);
+        return estimator_.weight_of_look(path, light_pdf, looks_);
     }
     Color direct(Tracer&, Sampler&, const Vertex&) const { return Color(0.f); }
     std::optional<BsdfSample> scatter(Sampler& sampler, const Vertex& vertex) const
@@ -40,6 +40,7 @@ public:
 
 private:
     const PathEstimator& estimator_;
+    int looks_;
 };
 
 } // namespace plumb

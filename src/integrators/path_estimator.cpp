@@ -53,8 +53,8 @@ Color PathEstimator::direct(Tracer& tracer, Sampler& sampler, const PathState& p
     case LightStrategy::path: return light_from_one_delta_emitter(tracer, sampler, vertex);
     case LightStrategy::emitter_samples: return light_from_one_emitter(tracer, sampler, vertex);
     case LightStrategy::both:
-        const bool is_looked_from = tracer.leaves_out_seen_lamps() && path.would_see_by_gloss(vertex);
-        const float directions = is_looked_from ? static_cast<float>(looks_) : 1.f;
+        const bool is_looked_from = tracer.looks() > 0 && path.would_see_by_gloss(vertex);
+        const float directions = is_looked_from ? static_cast<float>(tracer.looks()) : 1.f;
         if (candidates_ > 1 && path.would_be_first_glossy(vertex))
             return light_by_resampling(tracer, sampler, vertex, heuristic_, candidates_, directions);
         return light_from_one_emitter(tracer, sampler, vertex, heuristic_, directions);

@@ -28,11 +28,10 @@ public:
     // (and the path counts only what no such sample could find), or both.
     enum class LightStrategy { path, emitter_samples, both };
 
-    // candidates: with both, light samples at the first glossy vertex, of which one is followed. looks: with both, how many paths look for
-    // lamps that the camera sees, for each sample that leaves them out (Integrator::look()).
+    // candidates: with both, light samples at the first glossy vertex, of which one is followed.
     explicit PathEstimator(LightStrategy finder, PathLimits limits = {},
-                           Heuristic heuristic = Heuristic::power, int candidates = 1, int looks = 1)
-        : strategy_(finder), limits_(limits), heuristic_(heuristic), candidates_(candidates), looks_(looks)
+                           Heuristic heuristic = Heuristic::power, int candidates = 1)
+        : strategy_(finder), limits_(limits), heuristic_(heuristic), candidates_(candidates)
     {}
     // Direct light only: one bounce.
     static PathEstimator direct_light(LightStrategy finder);
@@ -62,10 +61,11 @@ public:
     {
         return emission_weight(path, light_pdf, 1.f);
     }
-    // The same of a path of look(). All of those that see a lamp chose their last direction at the first surface that is glossy.
-    float weight_of_look(const PathState& path, float light_pdf) const
+    // The same of a path of look(), where there are so many of each sample. All of those that see a lamp chose their last direction at
+    // the first surface that is glossy.
+    float weight_of_look(const PathState& path, float light_pdf, int looks) const
     {
-        return emission_weight(path, light_pdf, static_cast<float>(looks_));
+        return emission_weight(path, light_pdf, static_cast<float>(looks));
     }
     Color direct(Tracer& tracer, Sampler& sampler, const PathState& path, const Vertex& vertex) const;
     std::optional<BsdfSample> scatter(Sampler& sampler, const Vertex& vertex) const
@@ -90,7 +90,6 @@ private:
     PathLimits limits_;
     Heuristic heuristic_;
     int candidates_;
-    int looks_;
     const SkyGuide* sky_ = nullptr;
 };
 

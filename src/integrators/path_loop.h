@@ -31,7 +31,7 @@
 namespace plumb {
 
 // Bounces after which the camera sees a lamp (PathState::sees).
-inline constexpr int longest_look = 16;
+inline constexpr int longest_look = 64;
 
 // What a path remembers of its way.
 struct PathState {
@@ -137,12 +137,13 @@ template <class Technique>
 Color emitted(const Technique& technique, Tracer& tracer, const typename StateOf<Technique>::Type& path,
               const Ray& ray, const std::optional<SurfacePoint>& hit)
 {
-    if (tracer.leaves_out_seen_lamps() && path.sees && hit) [[unlikely]]
+    if constexpr (requires { Technique::sees_only_lamps; }) {
+        if (!hit) return Color(0.f);
+    } else if (tracer.looks() > 0 && path.sees && hit) [[unlikely]] {
         return Color(0.f);
+    }
     if ((hit && !hit->emitter) || !technique.counts_emission(path) || sees_no_emitters(technique, path))
         return Color(0.f);
-    if constexpr (requires { Technique::sees_only_lamps; })
-        if (!hit) return Color(0.f);
     const EmitterValue light = tracer.scene().emission(path.receiver, ray.direction, hit ? &*hit : nullptr);
     if (light.radiance.is_black()) return Color(0.f);
     const float weight = path.delta ? weight_behind_delta_bounces(technique, path)

@@ -7,6 +7,7 @@
 #include "model/plugin.h"
 #include "plumb/model/integrator.h"
 
+#include <algorithm>
 #include <mutex>
 
 namespace plumb {
@@ -18,7 +19,8 @@ namespace plumb {
 /// use when in doubt.
 ///
 /// Caustics, which light reaches through mirrors and glass, are found in a third way. Before the first sample, photons from
-/// emitters that have a size follow delta bounces to the first surface that scatters; they depend on the scene alone. Where they arrive,
+/// emitters that have a size follow delta bounces to the first surface that scatters; they depend on the scene alone, and their number
+/// on how many pixels the image has. Where they arrive,
 /// a surface also looks into directions that they came from, weighted by multiple importance sampling like the
 /// others: the image converges to the same with and without. Where nothing is learnt, nothing changes.
 ///
@@ -36,8 +38,8 @@ namespace plumb {
 ///     heuristic   string    how the two share: power or balance   (default power)
 ///     candidates  integer   emitter samples at the first glossy surface of a path; one of them is followed, chosen by what it
 ///                           would add if nothing were in the way   (default 4)
-///     outlineRays   integer   how many times each sample looks for a lamp where its outline is seen; 0: not at all
-///                           (default 8)
+///     outlineRays   integer   how many times each sample looks for a lamp where its outline is seen; half as often, or less, where a
+///                           look takes many bounces; 0 or 1: not at all   (default 16)
 ///     guide       boolean   whether caustics are also looked for in directions learnt from photons, and environments through openings
 ///                           learnt from paths   (default true)
 ///
@@ -47,9 +49,9 @@ namespace plumb {
 class PathMis final : public Integrator, public Guided {
 public:
     explicit PathMis(const Params& params)
-        : outline_rays_(static_cast<int>(params.integer("outlineRays", 8, Range::closed(0, 64)))),
+        : outline_rays_(static_cast<int>(params.integer("outlineRays", 16, Range::closed(0, 64)))),
           estimator_(PathEstimator::LightStrategy::both, PathLimits(params), heuristic_of(params),
-                     static_cast<int>(params.integer("candidates", 4, Range::closed(1, 64))), outline_rays_),
+                     static_cast<int>(params.integer("candidates", 4, Range::closed(1, 64)))),
           may_guide_(params.boolean("guide", true) && estimator_.max_depth() != 0)
     {}
 
@@ -59,7 +61,8 @@ public:
         std::call_once(trained_, [&] {
             sky_ = SkyGuide::learn(scene, camera, threads);
             if (sky_.is_on()) estimator_.know_sky(&sky_);
-            if (estimator_.max_depth() != 1) caustics_ = CausticGuide::learn(scene, threads);
+            if (estimator_.max_depth() != 1)
+                caustics_ = CausticGuide::learn(scene, photons_for(camera), threads);
             if (caustics_.is_on()) guided_.emplace(estimator_, caustics_);
         });
     }
@@ -83,10 +86,17 @@ public:
     int outline_rays() const override { return estimator_.hides_emitters() ? 0 : outline_rays_; }
     Color look(Tracer& tracer, Sampler& sampler, const Ray& ray) const override
     {
-        return LookPath(estimator_).look(tracer, sampler, ray);
+        return LookPath(estimator_, tracer.looks()).look(tracer, sampler, ray);
     }
 
 private:
+    static std::size_t photons_for(const Camera& camera)
+    {
+        const Vec2i size = camera.resolution();
+        const auto pixels = static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);
+        return std::clamp(pixels, CausticGuide::fewest_emitted, CausticGuide::most_emitted);
+    }
+
     int outline_rays_;
     mutable PathEstimator estimator_;
     bool may_guide_;

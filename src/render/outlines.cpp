@@ -18,15 +18,19 @@
 namespace plumb {
 namespace {
 
-constexpr std::uint8_t places_at_mirrors = 1; // of a pixel, where a smooth surface may be
+// Of a pixel, where a smooth surface may be: at first, and where light has so long a way there that few places show a lamp.
+constexpr std::uint8_t places_at_mirrors = 4;
+constexpr std::uint32_t places_behind_glass = 8;
+constexpr std::uint32_t rays_behind_glass = 3; // of a look, or more
 // Where a lamp may be: so many in all the pixels together, within these limits for each.
 constexpr float places_of_lamp = 512.f;
 constexpr std::uint8_t fewest_places_at_lamps = 4;
 constexpr std::uint8_t most_places = 64;
 constexpr std::uint64_t probes = 4;
-// Of an outline: V differs by more than this factor, and is at its brightest so many times the rest of the light.
-constexpr float least_contrast = 2.f;
-constexpr float least_brightness = 4.f;
+// Of an outline: by which part of its mean V differs at least.
+constexpr double least_difference = 0.1;
+// Of a look. Those that take more are fewer.
+constexpr double usual_rays = 2.0;
 constexpr std::uint64_t place_seed = 0x706C61636573; // "places"
 constexpr std::uint64_t probe_seed = 0x70726F626573; // "probes"
 constexpr std::uint64_t look_key = 0x6C6F6F6B73;     // "looks"
@@ -85,10 +89,10 @@ PixelRect pixels_in(const RasterBounds& bounds, const PixelRect& window)
 } // namespace
 
 Outlines::Outlines(const RenderJob& job, const PixelRect& window, int threads)
-    : job_(job), window_(window), looks_(static_cast<std::uint64_t>(job.integrator->outline_rays()))
+    : job_(job), window_(window), most_looks_(job.integrator->outline_rays())
 {
     // Filters with negative lobes have samples of both signs, which are no means of each other.
-    if (looks_ == 0 || job.filter->sample(Vec2f(0.5f)).weight != 1.f) return;
+    if (most_looks_ < 2 || job.filter->sample(Vec2f(0.5f)).weight != 1.f) return;
     const auto emits = [](const SceneObject& object) { return object.emitter != nullptr; };
     if (std::ranges::none_of(job.scene->objects(), emits)) return;
     reach_ = static_cast<int>(std::ceil(job.filter->radius() + 0.5f));
@@ -135,99 +139,126 @@ std::vector<std::uint8_t> Outlines::places() const
 
 void Outlines::find(const std::vector<std::uint8_t>& places, int threads)
 {
-    ranges_.resize(pixel_count(around_));
+    sights_.resize(pixel_count(around_));
     std::atomic<bool> any = false;
     parallel_for(static_cast<std::size_t>(around_.height), threads, [&](std::size_t row) {
         const FlushDenormals flush;
         Tracer tracer(*job_.scene); // of its own: these rays are no sample's
+        tracer.expect_looks(most_looks_);
         const std::unique_ptr<Sampler> sampler = job_.sampler->clone(most_places);
         const int y = around_.y + static_cast<int>(row);
         for (int x = around_.x; x < around_.x + around_.width; ++x) {
             const std::size_t at = index_in(around_, {x, y});
             if (places[at] == 0) continue;
-            ranges_[at] = glance({x, y}, places[at], *sampler, tracer);
-            if (ranges_[at].most > 0.f) any = true;
+            Sight& sight = sights_[at];
+            glance(sight, {x, y}, places[at], *sampler, tracer);
+            if (sight.rays >= rays_behind_glass * sight.places && sight.places < places_behind_glass)
+                glance(sight, {x, y}, places_behind_glass - sight.places, *sampler, tracer);
+            if (sight.sum > 0.f) any = true;
         }
     });
-    if (any) answers_.assign(pixel_count(window_), Answer::unknown);
+    if (any) looks_.assign(pixel_count(window_), unknown);
 }
 
 // Pixels beyond the edges of the image, too, which samplers do not know: they draw the numbers of other ones.
-Outlines::Range Outlines::glance(Vec2i pixel, int places, Sampler& sampler, Tracer& tracer) const
+void Outlines::glance(Sight& sight, Vec2i pixel, std::uint32_t places, Sampler& sampler, Tracer& tracer) const
 {
     constexpr int largest = 0xFFFF;
-    Range range{infinity, 0.f};
-    for (int i = 0; i < places; ++i) {
-        sampler.start(place_seed, {pixel.x & largest, pixel.y & largest}, static_cast<std::uint64_t>(i));
+    const std::uint64_t rays_before = tracer.counts().total();
+    for (std::uint32_t i = 0; i < places; ++i, ++sight.places) {
+        sampler.start(place_seed, {pixel.x & largest, pixel.y & largest}, sight.places);
         const Vec2f u = sampler.next_2d();
         const Vec2f u_lens = sampler.next_2d();
         const Vec2f raster(static_cast<float>(pixel.x) + u.x, static_cast<float>(pixel.y) + u.y);
         const CameraRay camera = job_.camera->sample_ray(raster, u_lens);
         const float value =
             finite_luminance(job_.integrator->look(tracer, sampler, camera.ray) * camera.weight);
-        range.least = std::min(range.least, value);
-        range.most = std::max(range.most, value);
+        sight.sum += value;
+        sight.squares += sqr(value);
     }
-    return range;
+    sight.rays += static_cast<std::uint32_t>(tracer.counts().total() - rays_before);
 }
 
-Outlines::Range Outlines::range_about(Vec2i pixel) const
+Outlines::Sight Outlines::sight_about(Vec2i pixel) const
 {
-    Range range{infinity, 0.f};
+    Sight about;
     for (int y = pixel.y - reach_; y <= pixel.y + reach_; ++y)
         for (int x = pixel.x - reach_; x <= pixel.x + reach_; ++x) {
-            const Range& one = ranges_[index_in(around_, {x, y})];
-            range.least = std::min(range.least, one.least);
-            range.most = std::max(range.most, one.most);
+            const Sight& one = sights_[index_in(around_, {x, y})];
+            about.sum += one.sum;
+            about.squares += one.squares;
+            // Where nobody has looked there is no lamp, and a look would be short.
+            about.places += one.places > 0 ? one.places : fewest_places_at_lamps;
+            about.rays += one.places > 0 ? one.rays : fewest_places_at_lamps;
         }
-    return range;
+    return about;
+}
+
+// The product of variance and time is least for a number that goes with the standard deviation of V over that of the rest, and with 1
+// over the square root of the rays of a look ([1]). That of the rest is taken to be as large as its mean. One look alone would gain
+// nothing.
+int Outlines::looks_at(const Sight& sight, Vec2i pixel, const FilmEdge& edge, Sampler& sampler) const
+{
+    const double places = std::max(static_cast<double>(sight.places), 1.0);
+    const double mean = static_cast<double>(sight.sum) / places;
+    const double variance = static_cast<double>(sight.squares) / places - sqr(mean);
+    if (!(variance > sqr(least_difference * mean))) return 0;
+    const double deviation = std::sqrt(variance);
+    const double rest = std::max(rest_of_light(pixel, edge, sampler), 1e-6 * deviation);
+    const auto most = static_cast<double>(most_looks_);
+    const double cost = std::max(static_cast<double>(sight.rays) / places, usual_rays);
+    const double wanted = std::min(deviation / rest, most) * std::sqrt(usual_rays / cost);
+    int looks = 1;
+    while (2.0 * looks <= wanted) looks *= 2;
+    return looks > 1 ? looks : 0;
 }
 
 std::unique_ptr<Sampler> Outlines::sampler(std::uint64_t total) const
 {
-    return answers_.empty() ? nullptr : job_.sampler->clone(std::max<std::uint64_t>(total * looks_, probes));
+    if (looks_.empty()) return nullptr;
+    return job_.sampler->clone(std::max(total * static_cast<std::uint64_t>(most_looks_), probes));
 }
 
-bool Outlines::at(Vec2i pixel, const FilmEdge& edge, Sampler& sampler)
+int Outlines::looks_at(Vec2i pixel, const FilmEdge& edge, Sampler& sampler)
 {
     // Two threads that decide at the same time decide the same.
-    const std::atomic_ref<Answer> known(answers_[index_in(window_, pixel)]);
-    Answer answer = known.load(std::memory_order_relaxed);
-    if (answer == Answer::unknown) {
-        const Range range = range_about(pixel);
-        const bool differs = range.most > least_contrast * range.least;
-        answer = differs && is_bright(range.most, pixel, edge, sampler) ? Answer::yes : Answer::no;
-        known.store(answer, std::memory_order_relaxed);
+    const std::atomic_ref<std::uint8_t> known(looks_[index_in(window_, pixel)]);
+    std::uint8_t looks = known.load(std::memory_order_relaxed);
+    if (looks == unknown) {
+        looks = static_cast<std::uint8_t>(looks_at(sight_about(pixel), pixel, edge, sampler));
+        known.store(looks, std::memory_order_relaxed);
     }
-    return answer == Answer::yes;
+    return looks;
 }
 
-bool Outlines::is_bright(float lamp, Vec2i pixel, const FilmEdge& edge, Sampler& sampler) const
+// Its luminance, roughly.
+double Outlines::rest_of_light(Vec2i pixel, const FilmEdge& edge, Sampler& sampler) const
 {
     Tracer tracer(*job_.scene);
-    tracer.leave_out_seen_lamps(true);
-    float rest = 0.f;
+    tracer.expect_looks(most_looks_);
+    double rest = 0.0;
     for (std::uint64_t i = 0; i < probes; ++i) {
         sampler.start(probe_seed, pixel, i);
         const CameraRay camera = draw_place(job_, edge, pixel, sampler).camera;
         const Color radiance = job_.integrator->radiance(tracer, sampler, camera.ray) * camera.weight;
-        rest += finite_luminance(radiance) / static_cast<float>(probes);
+        rest += static_cast<double>(finite_luminance(radiance)) / static_cast<double>(probes);
     }
-    return lamp > least_brightness * rest;
+    return rest;
 }
 
 Color Outlines::look(std::uint64_t seed, Vec2i pixel, std::uint64_t index, const FilmEdge& edge,
                      Sampler& sampler, Tracer& tracer) const
 {
     const std::uint64_t look_seed = random_word(look_key, seed);
+    const auto looks = static_cast<std::uint64_t>(tracer.looks());
     Color sum(0.f);
-    for (std::uint64_t i = 0; i < looks_; ++i) {
+    for (std::uint64_t i = 0; i < looks; ++i) {
         // The looks of a pixel's samples are spread over it together.
-        sampler.start(look_seed, pixel, index * looks_ + i);
+        sampler.start(look_seed, pixel, index * looks + i);
         const CameraRay camera = draw_place(job_, edge, pixel, sampler).camera;
         const std::size_t noted = tracer.noted_light();
         const auto with_sum = [&](const Color& seen) {
-            return sum + seen * camera.weight * (1.f / static_cast<float>(looks_));
+            return sum + seen * camera.weight * (1.f / static_cast<float>(looks));
         };
         const Color seen = job_.integrator->look(tracer, sampler, camera.ray);
         tracer.change_noted_light(noted, with_sum);

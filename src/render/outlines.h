@@ -26,37 +26,41 @@ public:
     // For what it draws; total: samples per pixel. Null where there are no outlines.
     std::unique_ptr<Sampler> sampler(std::uint64_t total) const;
 
-    // Whether an outline crosses the pixel. Decided when it is first asked for, by any thread. sampler: as above, and left
-    // changed.
-    bool at(Vec2i pixel, const FilmEdge& edge, Sampler& sampler);
+    // How many looks each sample of the pixel has: 0 where no outline crosses it. Decided when it is first asked for, by any thread.
+    // sampler: as above, and left changed.
+    int looks_at(Vec2i pixel, const FilmEdge& edge, Sampler& sampler);
 
-    // V of a sample. tracer: notes and counts.
+    // V of a sample: the mean of as many looks as the tracer expects. tracer: notes and counts.
     Color look(std::uint64_t seed, Vec2i pixel, std::uint64_t index, const FilmEdge& edge, Sampler& sampler,
                Tracer& tracer) const;
 
 private:
-    // Luminances of V.
-    struct Range {
-        float least = 0.f;
-        float most = 0.f;
+    // What the places of a pixel, or of several, show.
+    struct Sight {
+        float sum = 0.f; // luminances of V
+        float squares = 0.f;
+        std::uint32_t places = 0;
+        std::uint32_t rays = 0; // that all of them took
     };
-    enum class Answer : std::uint8_t { unknown, no, yes };
+    static constexpr std::uint8_t unknown = 255;
 
-    // At how many places each pixel of around_ is looked at.
+    // At how many places each pixel of around_ is looked at first.
     std::vector<std::uint8_t> places() const;
     void find(const std::vector<std::uint8_t>& places, int threads);
-    Range glance(Vec2i pixel, int places, Sampler& sampler, Tracer& tracer) const;
+    // Adds places to those that the pixel has.
+    void glance(Sight& sight, Vec2i pixel, std::uint32_t places, Sampler& sampler, Tracer& tracer) const;
     // Over all pixels that the filter of this one may reach, and the next ones.
-    Range range_about(Vec2i pixel) const;
-    bool is_bright(float lamp, Vec2i pixel, const FilmEdge& edge, Sampler& sampler) const;
+    Sight sight_about(Vec2i pixel) const;
+    int looks_at(const Sight& sight, Vec2i pixel, const FilmEdge& edge, Sampler& sampler) const;
+    double rest_of_light(Vec2i pixel, const FilmEdge& edge, Sampler& sampler) const;
 
     const RenderJob& job_;
     PixelRect window_;
-    std::uint64_t looks_; // of a sample
-    int reach_ = 0;       // pixels from the window to the edges of around_
+    int most_looks_; // of a sample
+    int reach_ = 0;  // pixels from the window to the edges of around_
     PixelRect around_;
-    std::vector<Range> ranges_;   // of around_
-    std::vector<Answer> answers_; // of window_; empty: there are no outlines
+    std::vector<Sight> sights_;       // of around_
+    std::vector<std::uint8_t> looks_; // of window_, or unknown; empty: there are no outlines
 };
 
 } // namespace plumb

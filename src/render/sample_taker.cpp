@@ -21,14 +21,15 @@ SampleTaken SampleTaker::take(std::uint64_t seed, Vec2i pixel, std::uint64_t ind
 {
     sampler_->start(seed, pixel, index);
     const CameraPlace place = draw_place(job_, edge_, pixel, *sampler_);
-    const bool looks = look_sampler_ && outlines_.at(pixel, edge_, *look_sampler_);
+    const int looks = look_sampler_ ? outlines_.looks_at(pixel, edge_, *look_sampler_) : 0;
+    tracer_.expect_looks(looks);
     Color seen(0.f);
-    if (looks) {
+    if (looks > 0) {
+        look_tracer_.expect_looks(looks);
         seen = outlines_.look(seed, pixel, index, edge_, *look_sampler_, look_tracer_);
         if (tracer_.logging())
             tracer_.log_contribution(PathEvent::Kind::emission, "the mean of several looks for lamps", seen);
     }
-    tracer_.leave_out_seen_lamps(looks);
     const std::size_t noted = tracer_.noted_light();
     Color radiance = job_.integrator->radiance(tracer_, *sampler_, place.camera.ray);
     const auto in_image = [&](const Color& found) { return found * place.camera.weight + seen; };

@@ -13,6 +13,10 @@ using namespace plumb;
 TEST_CASE("--json reports the run", "[cli][json]")
 {
     const SceneDirectory directory;
+    // Without looks for lamps, each sample has one ray of the camera.
+    directory.write(
+        "scene.xml",
+        small_scene(R"(<integrator type="path_mis"><integer name="outlineRays" value="0"/></integrator>)"));
     const RunResult result =
         directory.run({"scene.xml", "-o", "a.exr", "--json", "a.json", "--threads", "2"});
     REQUIRE(result.exit_code == 0);

@@ -131,7 +131,7 @@ Outcome cone_outcome(const GuideCell& cell, const Vec3f& from, const Vec3f& axis
 TEST_CASE("guided directions follow their density", "[statistical][guide]")
 {
     const Scene scene = balls().build();
-    const CausticGuide guide = CausticGuide::learn(scene, 0);
+    const CausticGuide guide = CausticGuide::learn(scene, CausticGuide::most_emitted, 0);
     REQUIRE(guide.is_on());
     const std::array<float, 3> widths{0.0005f, 0.01f, 0.2f};
     const int places = 8;
@@ -168,7 +168,7 @@ TEST_CASE("light from a lamp that a floor sees in a mirror has its closed form, 
           "[statistical][guide]")
 {
     const Scene scene = mirrored_lamp();
-    REQUIRE(CausticGuide::learn(scene, 0).is_on());
+    REQUIRE(CausticGuide::learn(scene, CausticGuide::most_emitted, 0).is_on());
     const PlacedLamp image{
         LampKind::rectangle,
         0.3,
@@ -188,7 +188,7 @@ TEST_CASE("light from a lamp behind a pane has its integral, with and without a 
           "[statistical][guide]")
 {
     const Scene scene = lamp_behind_pane();
-    REQUIRE(CausticGuide::learn(scene, 0).is_on());
+    REQUIRE(CausticGuide::learn(scene, CausticGuide::most_emitted, 0).is_on());
     for (const bool guided : {true, false})
         check_mean(
             guided ? "guided" : "not guided", light_behind_pane(),
@@ -203,7 +203,7 @@ TEST_CASE("a lamp in the way of guided directions counts once", "[statistical][g
     scene.rectangle(Vec3f(0.363f, 1.f, -0.033f), 0.06f, 0.2f, Vec3f(0, -1, 0), diffuse(0.f),
                     Color(lamp_radiance));
     const Scene lamps = scene.build();
-    REQUIRE(CausticGuide::learn(lamps, 0).is_on());
+    REQUIRE(CausticGuide::learn(lamps, CausticGuide::most_emitted, 0).is_on());
     check_same_mean(
         "two lamps",
         [&](std::uint64_t n, std::uint64_t seed) { return light_at_the_floor(lamps, true, n, seed); },
@@ -226,7 +226,8 @@ TEST_CASE("a guide is a function of the scene, whatever the threads", "[statisti
 {
     const Scene scene = balls().build();
     const Scene same = balls().build();
-    const CausticGuide one = CausticGuide::learn(scene, 1), many = CausticGuide::learn(same, 3);
+    const CausticGuide one = CausticGuide::learn(scene, CausticGuide::most_emitted, 1),
+                       many = CausticGuide::learn(same, CausticGuide::most_emitted, 3);
     CHECK(one.facts().arrived == many.facts().arrived);
     CHECK(one.facts().cells == many.facts().cells);
     TestRandom random(4);

@@ -32,12 +32,12 @@ public:
     // Whether it notes each contribution to a sample (scene/light_notes.h), so that layers can be of parts of the light.
     virtual bool notes_light() const { return false; }
 
-    // How many times each sample is to look for lamps where their outlines are seen (render/outlines.h). Above 0 only of
+    // How many times, at most, each sample is to look for lamps where their outlines are seen (render/outlines.h). Above 0 only of
     // integrators that have look().
     virtual int outline_rays() const { return 0; }
     // An estimate of a part of radiance(): the light of lamps that the camera sees along `ray`, directly, by delta bounces, or
-    // by one glossy bounce after those. radiance() leaves this part out where the tracer says so. How the two share light that both can
-    // find may depend on outline_rays().
+    // by one glossy bounce after those. radiance() leaves this part out where the tracer expects looks. How the two share light that both
+    // can find may depend on how many.
     virtual Color look(Tracer&, Sampler&, const Ray&) const { return Color(0.f); }
 
     // Whether a scene without lamps is black.

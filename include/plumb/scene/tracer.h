@@ -90,9 +90,9 @@ public:
     // Shadow rays that pass more surfaces than these are occluded (integrators that count passes); by default any number.
     void limit_passes(int most) { most_passes_ = most; }
 
-    // Whether the light of lamps that the camera sees (Integrator::look()) is left out, as it is found by other means.
-    bool leaves_out_seen_lamps() const { return leaves_out_seen_lamps_; }
-    void leave_out_seen_lamps(bool yes) { leaves_out_seen_lamps_ = yes; }
+    // How many looks for lamps (Integrator::look()) there are of each sample of the pixel. Above 0, samples leave out what those find.
+    int looks() const { return looks_; }
+    void expect_looks(int looks) { looks_ = looks; }
 
     // Whether a ray since the last call was not traceable (ray.h): it met nothing and saw nothing, and the sample that
     // asked for it must not count.
@@ -133,7 +133,7 @@ private:
     const Scene& scene_;
     RayCounts counts_;
     int most_passes_ = std::numeric_limits<int>::max();
-    bool leaves_out_seen_lamps_ = false;
+    int looks_ = 0;
     bool failed_ = false;
     std::vector<PathEvent>* log_;
     FirstSurfaces* first_;
