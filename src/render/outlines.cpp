@@ -197,9 +197,9 @@ Outlines::Sight Outlines::sight_about(Vec2i pixel) const
 // The product of variance and time is least for a number that goes with the standard deviation of V over that of the rest, and with 1
 // over the square root of the rays of a look ([1]). That of the rest is taken to be as large as its mean. One look alone would gain
 // nothing.
-int Outlines::looks_at(const Sight& sight, Vec2i pixel, const FilmEdge& edge, Sampler& sampler) const
+int Outlines::count_looks(const Sight& sight, Vec2i pixel, const FilmEdge& edge, Sampler& sampler) const
 {
-    const double places = std::max(static_cast<double>(sight.places), 1.0);
+    const auto places = static_cast<double>(sight.places);
     const double mean = static_cast<double>(sight.sum) / places;
     const double variance = static_cast<double>(sight.squares) / places - sqr(mean);
     if (!(variance > sqr(least_difference * mean))) return 0;
@@ -225,7 +225,7 @@ int Outlines::looks_at(Vec2i pixel, const FilmEdge& edge, Sampler& sampler)
     const std::atomic_ref<std::uint8_t> known(looks_[index_in(window_, pixel)]);
     std::uint8_t looks = known.load(std::memory_order_relaxed);
     if (looks == unknown) {
-        looks = static_cast<std::uint8_t>(looks_at(sight_about(pixel), pixel, edge, sampler));
+        looks = static_cast<std::uint8_t>(count_looks(sight_about(pixel), pixel, edge, sampler));
         known.store(looks, std::memory_order_relaxed);
     }
     return looks;

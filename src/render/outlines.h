@@ -26,7 +26,7 @@ public:
     // For what it draws; total: samples per pixel. Null where there are no outlines.
     std::unique_ptr<Sampler> sampler(std::uint64_t total) const;
 
-    // How many looks each sample of the pixel has: 0 where no outline crosses it. Decided when it is first asked for, by any thread.
+    // How many looks each sample of the pixel has: 0 where no outline crosses it. Counted when it is first asked for, by any thread.
     // sampler: as above, and left changed.
     int looks_at(Vec2i pixel, const FilmEdge& edge, Sampler& sampler);
 
@@ -51,7 +51,7 @@ private:
     void glance(Sight& sight, Vec2i pixel, std::uint32_t places, Sampler& sampler, Tracer& tracer) const;
     // Over all pixels that the filter of this one may reach, and the next ones.
     Sight sight_about(Vec2i pixel) const;
-    int looks_at(const Sight& sight, Vec2i pixel, const FilmEdge& edge, Sampler& sampler) const;
+    int count_looks(const Sight& sight, Vec2i pixel, const FilmEdge& edge, Sampler& sampler) const;
     double rest_of_light(Vec2i pixel, const FilmEdge& edge, Sampler& sampler) const;
 
     const RenderJob& job_;
