@@ -61,13 +61,17 @@ public:
           clearcoat_(fraction(params, "clearcoat", 0.f)),
           clearcoat_gloss_(fraction(params, "clearcoatGloss", 0.f)),
           refracts_(spec_trans_->max_number() > 0.f),
+          is_diffuse_(metallic_->min_number() < 1.f &&
+                      (spec_trans_->min_number() < 1.f || sheen_->max_number() > 0.f)),
           is_oriented_(anisotropic_->max_number() > 0.f)
     {}
 
     Lobes lobes() const override
     {
-        const Lobes above = Lobe::diffuse_reflection | Lobe::glossy_reflection;
-        return refracts_ ? above | Lobe::glossy_transmission : above;
+        Lobes lobes = Lobe::glossy_reflection;
+        if (is_diffuse_) lobes = lobes | Lobe::diffuse_reflection;
+        if (refracts_) lobes = lobes | Lobe::glossy_transmission;
+        return lobes;
     }
     bool is_oriented() const override { return is_oriented_; }
     bool conserves_energy() const override { return false; }
@@ -269,6 +273,7 @@ private:
     std::shared_ptr<const NumberTexture> clearcoat_;
     std::shared_ptr<const NumberTexture> clearcoat_gloss_;
     bool refracts_;
+    bool is_diffuse_; // somewhere
     bool is_oriented_;
 };
 

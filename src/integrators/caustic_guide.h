@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Where light may come from that reaches a surface through mirrors and glass: densities of directions, learnt from photons.
+// Where light may come from that reaches a surface through mirrors, glass and what is nearly as smooth: densities of directions, learnt from photons.
 //
 // [1] Jensen 1995, "Importance Driven Path Tracing using the Photon Map"
 // [2] Herholz et al. 2016, "Product Importance Sampling for Light Transport Path Guiding", for what guiding is

@@ -67,12 +67,12 @@ Box3f box_of(std::span<const CausticPhoton> photons)
     return box;
 }
 
-// Photons per unit area, roughly: how much light arrives in a cell.
+// Photons per unit area, roughly (a square has half its squared diagonal): how much light arrives in a cell.
 double brightness(std::span<const CausticPhoton> photons)
 {
     const double diagonal2 =
         photons.empty() ? 0.0 : static_cast<double>(length_squared(box_of(photons).size()));
-    return diagonal2 > 0.0 ? static_cast<double>(photons.size()) / diagonal2 : 0.0;
+    return diagonal2 > 0.0 ? 2.0 * static_cast<double>(photons.size()) / diagonal2 : 0.0;
 }
 
 // Guided directions are worth their rays where there is light: the noise that they remove goes with it. Measured on two scenes, for
@@ -84,6 +84,25 @@ float strength_of(double brightness, double median)
     if (!(median > 0.0)) return 1.f;
     const double root = std::sqrt(brightness / median);
     return static_cast<float>(std::clamp(root * std::sqrt(root), weakest, strongest)); // to the power of 3/4
+}
+
+// Light of shiny links is found by emitter samples, too, so that it has less noise without a guide, and where other light outshines it
+// its noise is not seen. Of directions that such photons have taught only so many are worth their rays. light: irradiance of the
+// cell's photons. The second moment of what finds it unguided is light^2 gain, roughly, for gain is about pi times the density of
+// the kernels where light arrives; that of other light goes with its square. Measured on five scenes, between 0.2 and 1.2.
+float worth_of_rays(std::span<const CausticPhoton> photons, double light, double gain)
+{
+    constexpr double least_ratio = 0.3;
+    double direct = 0.0;
+    double glossy = 0.0;
+    for (const CausticPhoton& photon : photons) {
+        direct += static_cast<double>(photon.irradiance);
+        glossy += photon.is_glossy ? 1.0 : 0.0;
+    }
+    const auto count = static_cast<double>(photons.size());
+    const double needed = least_ratio * direct / count;
+    const double noise = light * std::sqrt(gain);
+    return noise < needed ? static_cast<float>(1.0 - glossy / count * (1.0 - noise / needed)) : 1.f;
 }
 
 // What a cell has, and what it does for its photons.
@@ -121,7 +140,7 @@ Learnt learn_cell(std::span<const CausticPhoton> photons)
 
 class GuideBuilder {
 public:
-    explicit GuideBuilder(std::vector<CausticPhoton> photons) : photons_(std::move(photons)) {}
+    explicit GuideBuilder(CausticPhotons found) : photons_(std::move(found.photons)), flux_(found.flux) {}
 
     void build(CausticGuide& guide, int threads)
     {
@@ -152,7 +171,9 @@ public:
         for (std::size_t node = 0; node < nodes; ++node) {
             if (!helps(learnt[node])) continue;
             GuideCell& cell = guide.cells_.emplace_back(learnt[node].cell);
-            cell.complete(strength_of(brightnesses[node], usual));
+            const double light = brightnesses[node] * flux_;
+            cell.complete(strength_of(brightnesses[node], usual) *
+                          worth_of_rays(parts[node], light, learnt[node].gain));
             guide.leaves_[node] = {reach_of(parts[node]), &cell};
         }
         guide.facts_.cells = guide.cells_.size();
@@ -174,6 +195,7 @@ private:
     }
 
     std::vector<CausticPhoton> photons_;
+    double flux_; // of each
 };
 
 CausticGuide CausticGuide::learn(const Scene& scene, std::size_t photons, int threads)
@@ -183,7 +205,7 @@ CausticGuide CausticGuide::learn(const Scene& scene, std::size_t photons, int th
     CausticPhotons found = trace_caustic_photons(scene, photons, threads);
     guide.facts_.emitted = found.emitted;
     guide.facts_.arrived = found.photons.size();
-    if (!found.photons.empty()) GuideBuilder(std::move(found.photons)).build(guide, threads);
+    if (!found.photons.empty()) GuideBuilder(std::move(found)).build(guide, threads);
     guide.facts_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return guide;
 }

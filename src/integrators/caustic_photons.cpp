@@ -8,6 +8,7 @@
 #include "plumb/model/shape.h"
 #include "plumb/sampling/distribution.h"
 #include "plumb/sampling/sampling.h"
+#include "plumb/scene/tracer.h"
 #include "samplers/hashed.h"
 
 #include <algorithm>
@@ -24,9 +25,9 @@ constexpr std::uint64_t photon_key = 0x63617573746963; // "caustic"
 constexpr int most_surfaces = 64;                      // passes through null lobes included
 constexpr std::size_t most_targets = 64;
 
-bool has_delta_bounces(const SceneObject& object)
+bool throws_caustics(const SceneObject& object)
 {
-    return object.bsdf->lobes().has_any(Lobe::delta_reflection | Lobe::delta_transmission);
+    return throw_caustics(object.bsdf->lobes());
 }
 
 Ball ball_around(const Box3f& box)
@@ -34,13 +35,13 @@ Ball ball_around(const Box3f& box)
     return {box.center(), 0.5f * length(box.size())};
 }
 
-// Balls around what has delta lobes: what photons are aimed at, or few would meet it.
+// Balls around what throws caustics: what photons are aimed at, or few would meet it.
 std::vector<Ball> find_targets(const Scene& scene)
 {
     std::vector<Ball> targets;
     Box3f all;
     for (const SceneObject& object : scene.objects()) {
-        if (!has_delta_bounces(object)) continue;
+        if (!throws_caustics(object)) continue;
         all.extendBy(object.shape->bounds());
         targets.push_back(object.shape->as_ball().value_or(ball_around(object.shape->bounds())));
     }
@@ -50,7 +51,7 @@ std::vector<Ball> find_targets(const Scene& scene)
         const auto [group, is_new] = groups.try_emplace(instance.group.get(), false);
         if (is_new) {
             const std::vector<SceneObject>& objects = instance.group->objects();
-            group->second = std::any_of(objects.begin(), objects.end(), has_delta_bounces);
+            group->second = std::any_of(objects.begin(), objects.end(), throws_caustics);
         }
         if (!group->second) continue;
         all.extendBy(instance.bounds());
@@ -85,6 +86,7 @@ public:
         const auto add = [&](const Lamp& lamp) {
             lamps_.push_back(lamp);
             weights.push_back(static_cast<double>(lamp.emitter->power()) * part_at_targets(lamp));
+            flux_ += weights.back();
         };
         for (const SceneObject& object : scene.objects())
             if (object.emitter && !object.emitter->is_delta()) add({object.emitter.get(), &object});
@@ -96,6 +98,8 @@ public:
     }
 
     bool can_emit() const { return choice_.can_sample(); }
+    // Of all photons, when as many are counted as are emitted.
+    double flux() const { return flux_; }
 
     // Where the photon begins. Nothing for the part of them by which the others become as many as the light is bright.
     struct Emission {
@@ -111,15 +115,15 @@ public:
     }
 
 private:
-    // How much of the lamp's light goes where photons are aimed, roughly.
+    // How much of the lamp's light goes where photons are aimed, roughly: twice where two targets overlap.
     double part_at_targets(const Lamp& lamp) const
     {
         double part = 0.0;
         for (const Ball& target : targets_)
-            part += lamp.object ? 0.5 * static_cast<double>(one_minus_cos_towards(
+            part += lamp.object ? 2.0 * static_cast<double>(one_minus_cos_towards(
                                             target, lamp.object->shape->bounds().center()))
                                 : static_cast<double>(sqr(target.radius / everything_.radius));
-        return std::min(part, 1.0);
+        return part;
     }
 
     // [1] has photons from lamps along cosines; here into the cones of the targets, and the cosine decides which of them count.
@@ -184,14 +188,25 @@ private:
     std::vector<Ball> targets_;
     Ball everything_;
     std::vector<Lamp> lamps_;
-    DiscreteDistribution choice_;       // of lamps_
+    DiscreteDistribution choice_; // of lamps_
+    double flux_ = 0.0;
     std::vector<double> largest_areas_; // of the targets seen from afar, added up
 };
 
+// From one emitter sample.
+float direct_irradiance(Tracer& tracer, const Vertex& vertex, double u_choice, const Vec2f& u)
+{
+    const auto light = tracer.scene().sample_emitter(vertex.receiver(), u_choice, u);
+    if (!light) return 0.f;
+    const float cosine = std::abs(dot(light->wi, vertex.at().shading.n));
+    return luminance(light->radiance) * cosine / light->pdf * tracer.visible(vertex.at(), *light);
+}
+
 // Follows one photon, and adds where it arrives.
-void trace_photon(const Scene& scene, const PhotonSource& source, std::uint64_t index,
+void trace_photon(Tracer& tracer, const PhotonSource& source, std::uint64_t index,
                   std::vector<CausticPhoton>& photons)
 {
+    const Scene& scene = tracer.scene();
     RandomStream random(random_word(photon_key, index));
     const auto emission = source.emit(random);
     if (!emission) return;
@@ -199,6 +214,7 @@ void trace_photon(const Scene& scene, const PhotonSource& source, std::uint64_t 
     float to_emitter = emission->before;
     float to_last = 0.f;
     int chain = 0;
+    bool is_glossy = false;
     for (int surfaces = 0; surfaces < most_surfaces; ++surfaces) {
         if (!is_traceable(ray)) return;
         const auto hit = scene.intersect(ray);
@@ -212,15 +228,20 @@ void trace_photon(const Scene& scene, const PhotonSource& source, std::uint64_t 
         const float u_survival = random.next_1d();
         const std::optional<BsdfSample> next = vertex.sample(u_lobe, u);
         if (!next) return; // black from there
-        if (chain > 0 && vertex.has_smooth_lobes())
+        if (chain > 0 && vertex.has_diffuse_lobes()) {
+            const double u_choice = random.next_choice();
+            const Vec2f u_light = random.next_2d();
             photons.push_back({hit->position, -ray.direction, std::abs(dot(hit->shading.n, ray.direction)),
-                               to_last, to_emitter});
-        if (!next->is_delta() || (hit->emitter && scene.emitters_absorb())) return;
+                               to_last, direct_irradiance(tracer, vertex, u_choice, u_light), is_glossy,
+                               to_emitter});
+        }
+        if (!(next->is_delta() || vertex.is_shiny()) || (hit->emitter && scene.emitters_absorb())) return;
         if (next->is_pass()) {
             ray = hit->spawn_ray(ray.direction);
             continue;
         }
         if (++chain > longest_chain) return;
+        is_glossy = is_glossy || !next->is_delta();
         // What is left of the light as power, as in PathState.
         if (!(u_survival < max_component(next->weight) * sqr(next->eta))) return;
         to_last = 0.f;
@@ -239,10 +260,12 @@ CausticPhotons trace_caustic_photons(const Scene& scene, std::size_t photons, in
         std::vector<std::vector<CausticPhoton>> of_parts(end - first);
         parallel_for(of_parts.size(), threads, [&](std::size_t part) {
             const FlushDenormals flush;
+            Tracer tracer(scene);
             for (std::size_t i = 0; i < photons_of_a_part; ++i)
-                trace_photon(scene, source, (first + part) * photons_of_a_part + i, of_parts[part]);
+                trace_photon(tracer, source, (first + part) * photons_of_a_part + i, of_parts[part]);
         });
         found.emitted = end * photons_of_a_part;
+        found.flux = source.flux() / static_cast<double>(found.emitted);
         for (const std::vector<CausticPhoton>& arrived : of_parts)
             found.photons.insert(found.photons.end(), arrived.begin(), arrived.end());
     };

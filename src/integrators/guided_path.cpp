@@ -6,7 +6,7 @@
 
 #include "integrators/caustic_photons.h"
 #include "integrators/spread_points.h"
-#include "samplers/hashed.h"
+#include "samplers/stream.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,11 +20,22 @@ Color GuidedPath::radiance(Tracer& tracer, Sampler& sampler, const Ray& ray) con
     return trace_path(*this, tracer, sampler, ray);
 }
 
+float GuidedPath::weight_of_direction(const GuidedPathState& path) const
+{
+    return mis_weight(heuristic(), path.pdf_of_direction,
+                      path.directions * path.cell->pdf(path.position, path.direction)); // [1]
+}
+
 float GuidedPath::chain_weight(const GuidedPathState& path) const
 {
-    if (!path.cell || path.chain > longest_chain) return 1.f;
-    return mis_weight(heuristic(), path.pdf_of_direction,
-                      path.directions * path.cell->pdf(path.position, path.direction));
+    if (!path.cell || path.chain == 0 || path.chain > longest_chain) return 1.f;
+    return weight_of_direction(path);
+}
+
+float GuidedPath::direct_weight(const GuidedPathState& path) const
+{
+    if (!path.cell || path.chain >= longest_chain) return 1.f;
+    return weight_of_direction(path);
 }
 
 Color GuidedPath::with_waiting(Tracer& tracer, GuidedPathState& path, int depth, Color sum) const
@@ -34,7 +45,7 @@ Color GuidedPath::with_waiting(Tracer& tracer, GuidedPathState& path, int depth,
     for (; next != path.waiting.end() && next->depth <= depth; ++next) {
         sum += next->contribution;
         if (tracer.light_notes()) [[unlikely]]
-            tracer.light_notes()->add({sum, FoundBy::direction, next->emitter, next->depth});
+            tracer.light_notes()->add({sum, next->by, next->emitter, next->depth});
     }
     path.waiting.erase(path.waiting.begin(), next);
     return sum;
@@ -45,7 +56,7 @@ void GuidedPath::find_chains(Tracer& tracer, Sampler& sampler, GuidedPathState& 
 {
     // As many numbers are drawn whatever the chain does, and the rest of the path draws what it would draw without a guide.
     path.u_survival = sampler.next_1d();
-    path.cell_here = vertex.has_smooth_lobes() ? guide_->cell_at(vertex.at().position) : nullptr;
+    path.cell_here = vertex.has_diffuse_lobes() ? guide_->cell_at(vertex.at().position) : nullptr;
     if (!path.cell_here) return;
     const float u_chance = sampler.next_1d();
     const Vec2f u_direction = sampler.next_2d();
@@ -70,38 +81,43 @@ void GuidedPath::find_chains(Tracer& tracer, Sampler& sampler, GuidedPathState& 
                 fmt::format("a guided direction: pdf {:.6g}, of the BSDF {:.6g}", guided->pdf, value.pdf));
         const float density = path.directions_here * guided->pdf;
         const float weight = mis_weight(heuristic(), density, value.pdf); // [1]
+        PathState chain = path;
+        chain.extend(vertex, {guided->direction, value.f_cos * (weight / density), density});
         follow(tracer, path,
-               {vertex.at().spawn_ray(guided->direction), path.throughput * value.f_cos * (weight / density),
-                vertex.receiver(), bounces + 1, key + static_cast<std::uint64_t>(i)});
+               {chain, vertex.at().spawn_ray(guided->direction), bounces + 1,
+                key + static_cast<std::uint64_t>(i)});
     }
 }
 
 void GuidedPath::follow(Tracer& tracer, GuidedPathState& path, Chain chain) const
 {
     const Scene& scene = tracer.scene();
-    RandomStream random(chain.key);
+    StreamSampler sampler(chain.key);
     for (int length = 0;;) {
         const auto hit = tracer.intersect(chain.ray, RayKind::bounce);
         if (length > 0 && (!hit || hit->emitter)) {
-            const Color contribution =
-                chain.throughput *
-                scene.emission(chain.receiver, chain.ray.direction, hit ? &*hit : nullptr).radiance;
+            const EmitterValue light =
+                scene.emission(chain.path.receiver, chain.ray.direction, hit ? &*hit : nullptr);
+            const float weight = chain.path.delta ? 1.f : emission_weight(chain.path, light.pdf);
+            const Color contribution = chain.path.throughput * light.radiance * weight;
             if (!contribution.is_black()) {
                 if (tracer.logging())
                     tracer.log_contribution(PathEvent::Kind::emission, "emission", contribution);
-                path.wait({chain.depth, hit ? hit->emitter_index : environment_index, contribution});
+                path.wait({chain.depth, FoundBy::direction, hit ? hit->emitter_index : environment_index,
+                           contribution});
             }
         }
         if (!hit || (hit->emitter && scene.emitters_absorb())) return;
-        const Vertex vertex(*hit, chain.ray.direction);
+        Vertex vertex(*hit, chain.ray.direction);
         const bool passes_only = chain.depth == max_depth() || length == longest_chain;
-        if (!vertex.has_delta_lobes() || (passes_only && !scene.has_null_surfaces())) return;
-        const float u_lobe = random.next_1d();
-        const Vec2f u = random.next_2d();
-        const std::optional<BsdfSample> next = vertex.sample(u_lobe, u);
-        if (!next || !next->is_delta()) return;
-        chain.throughput *= next->weight;
+        if (!(vertex.has_delta_lobes() || vertex.is_shiny()) || (passes_only && !scene.has_null_surfaces()))
+            return;
+        vertex.know_sky(sky_at(vertex));
+        const std::optional<BsdfSample> next = scatter(sampler, vertex);
+        if (!passes_only && vertex.is_shiny()) find_direct(tracer, sampler, path, chain, vertex);
+        if (!next || !(next->is_delta() || vertex.is_shiny())) return;
         if (next->is_pass()) {
+            chain.path.pass(*next);
             if (counts_passes() && chain.depth++ == max_depth()) return;
             chain.ray = hit->spawn_ray(chain.ray.direction);
             continue;
@@ -109,9 +125,24 @@ void GuidedPath::follow(Tracer& tracer, GuidedPathState& path, Chain chain) cons
         if (passes_only) return;
         ++length;
         ++chain.depth;
-        chain.receiver = vertex.receiver();
+        chain.path.extend(vertex, *next);
         chain.ray = hit->spawn_ray(vertex.to_world(*next));
     }
+}
+
+void GuidedPath::find_direct(Tracer& tracer, Sampler& sampler, GuidedPathState& path, const Chain& chain,
+                             const Vertex& vertex) const
+{
+    if (tracer.scene().has_null_surfaces() && counts_passes())
+        tracer.limit_passes(passes_left(max_depth(), chain.depth));
+    const std::size_t noted = tracer.noted_light();
+    const Color contribution = chain.path.throughput * direct(tracer, sampler, chain.path, vertex);
+    std::uint32_t emitter = environment_index;
+    if (tracer.light_notes()) [[unlikely]]
+        emitter = tracer.light_notes()->take_back(noted).value_or(emitter);
+    if (contribution.is_black()) return;
+    if (tracer.logging()) tracer.log_contribution(PathEvent::Kind::direct, "direct light", contribution);
+    path.wait({chain.depth + 1, FoundBy::emitter_sample, emitter, contribution});
 }
 
 } // namespace plumb

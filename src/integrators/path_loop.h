@@ -15,10 +15,11 @@
 //     SkyView sky_at(const Vertex&) const                       optional: what is known there of an environment (sky_view.h)
 //     bool sees_only_lamps                                      optional, static: does light from outside the scene not count?
 //
-// and, all or none, of techniques that look for emitters behind delta bounces by other means, too (guided_path.h):
+// and, all or none, of techniques that look for emitters behind links by other means, too (guided_path.h):
 //
 //     State                                                     a PathState that knows more
-//     float chain_weight(const State&) const                    the weight of what the path meets after delta bounces
+//     float chain_weight(const State&) const                    the weight of what the path meets after links
+//     float direct_weight(const State&) const                   the weight of direct() at a shiny vertex
 //     void find_chains(Tracer&, Sampler&, State&, const Vertex&, int bounces) const
 //                                                               looks by the other means; what is found waits in the state
 //     Color with_waiting(Tracer&, State&, int depth, const Color& sum) const
@@ -81,7 +82,7 @@ struct PathState {
 
 // The state that the technique wants.
 template <class Technique>
-concept LooksBehindDeltaBounces = requires
+concept LooksBehindLinks = requires
 {
     typename Technique::State;
 };
@@ -89,7 +90,7 @@ template <class Technique>
 struct StateOf {
     using Type = PathState;
 };
-template <LooksBehindDeltaBounces Technique>
+template <LooksBehindLinks Technique>
 struct StateOf<Technique> {
     using Type = typename Technique::State;
 };
@@ -124,9 +125,9 @@ void note_emission(Tracer& tracer, const PathState& path, int depth, const Color
 void note_direct(Tracer& tracer, const PathState& path, int depth, const Color& before, std::size_t first);
 
 template <class Technique>
-float weight_behind_delta_bounces(const Technique& technique, const typename StateOf<Technique>::Type& path)
+float weight_behind_links(const Technique& technique, const typename StateOf<Technique>::Type& path)
 {
-    if constexpr (LooksBehindDeltaBounces<Technique>)
+    if constexpr (LooksBehindLinks<Technique>)
         return technique.chain_weight(path);
     else
         return 1.f;
@@ -146,8 +147,8 @@ Color emitted(const Technique& technique, Tracer& tracer, const typename StateOf
         return Color(0.f);
     const EmitterValue light = tracer.scene().emission(path.receiver, ray.direction, hit ? &*hit : nullptr);
     if (light.radiance.is_black()) return Color(0.f);
-    const float weight = path.delta ? weight_behind_delta_bounces(technique, path)
-                                    : technique.emission_weight(path, light.pdf);
+    const float weight = (path.delta ? 1.f : technique.emission_weight(path, light.pdf)) *
+                         weight_behind_links(technique, path);
     const Color contribution = path.throughput * light.radiance * weight;
     if (tracer.logging()) tracer.log_contribution(PathEvent::Kind::emission, "emission", contribution);
     return contribution;
@@ -155,14 +156,22 @@ Color emitted(const Technique& technique, Tracer& tracer, const typename StateOf
 
 // The same for what technique.direct() finds.
 template <class Technique>
-Color scattered(const Technique& technique, Tracer& tracer, Sampler& sampler, const PathState& path,
-                const Vertex& vertex)
+Color scattered(const Technique& technique, Tracer& tracer, Sampler& sampler,
+                const typename StateOf<Technique>::Type& path, const Vertex& vertex)
 {
     Color found;
+    const std::size_t noted = tracer.noted_light();
     if constexpr (requires { technique.direct(tracer, sampler, path, vertex); })
         found = technique.direct(tracer, sampler, path, vertex);
     else
         found = technique.direct(tracer, sampler, vertex);
+    if constexpr (LooksBehindLinks<Technique>) {
+        if (vertex.is_shiny() && !found.is_black()) {
+            const float weight = technique.direct_weight(path);
+            found *= weight;
+            tracer.change_noted_light(noted, [weight](const Color& sum) { return sum * weight; });
+        }
+    }
     const Color contribution = path.throughput * found;
     if (tracer.logging() && !contribution.is_black())
         tracer.log_contribution(PathEvent::Kind::direct, "direct light", contribution);
@@ -173,7 +182,7 @@ Color scattered(const Technique& technique, Tracer& tracer, Sampler& sampler, co
 template <class Technique>
 float number_of_roulette(const Technique&, Sampler& sampler, const typename StateOf<Technique>::Type& path)
 {
-    if constexpr (LooksBehindDeltaBounces<Technique>)
+    if constexpr (LooksBehindLinks<Technique>)
         return path.u_survival;
     else
         return sampler.next_1d();
@@ -225,14 +234,14 @@ Color follow_path(const Technique& technique, Tracer& tracer, Sampler& sampler,
         if (may_pass && technique.counts_passes())
             tracer.limit_passes(passes_left(technique.max_depth(), bounces));
         if (!passes_only) {
-            if constexpr (LooksBehindDeltaBounces<Technique>)
+            if constexpr (LooksBehindLinks<Technique>)
                 result = technique.with_waiting(tracer, path, bounces, result);
             const std::size_t noted = tracer.noted_light();
             const Color before = result;
             result += scattered(technique, tracer, sampler, path, vertex);
             if (tracer.light_notes()) [[unlikely]]
                 note_direct(tracer, path, bounces + 1, before, noted);
-            if constexpr (LooksBehindDeltaBounces<Technique>)
+            if constexpr (LooksBehindLinks<Technique>)
                 technique.find_chains(tracer, sampler, path, vertex, bounces);
         }
         if (!next) return end("the surface absorbs the path"), result;
@@ -261,7 +270,7 @@ Color trace_path(const Technique& technique, Tracer& tracer, Sampler& sampler, c
 {
     typename StateOf<Technique>::Type path(ray.origin);
     Color result = follow_path(technique, tracer, sampler, path, ray);
-    if constexpr (LooksBehindDeltaBounces<Technique>)
+    if constexpr (LooksBehindLinks<Technique>)
         result = technique.with_waiting(tracer, path, std::numeric_limits<int>::max(), result);
     return result;
 }

@@ -18,9 +18,9 @@ namespace plumb {
 /// only one of them can find (point lights; what is seen after a delta bounce) has weight 1. The integrator to
 /// use when in doubt.
 ///
-/// Caustics, which light reaches through mirrors and glass, are found in a third way. Before the first sample, photons from
-/// emitters that have a size follow delta bounces to the first surface that scatters; they depend on the scene alone, and their number
-/// on how many pixels the image has. Where they arrive,
+/// Caustics, which light reaches through mirrors, glass, metals and rough glass, are found in a third way. Before the first sample,
+/// photons from emitters that have a size follow such bounces to the first surface that has a diffuse part; they depend on the scene
+/// alone, and their number on how many pixels the image has. Where they arrive,
 /// a surface also looks into directions that they came from, weighted by multiple importance sampling like the
 /// others: the image converges to the same with and without. Where nothing is learnt, nothing changes.
 ///

@@ -25,6 +25,8 @@ public:
     const SurfacePoint& at() const { return at_; }
     bool has_delta_lobes() const { return lobes_.has_any(delta_lobes); }
     bool is_glossy() const { return lobes_.has_any(glossy_lobes); }
+    bool is_shiny() const { return are_shiny(lobes_); } // bsdf.h
+    bool has_diffuse_lobes() const { return lobes_.has_any(Lobe::diffuse_reflection); }
     bool has_transmission() const { return lobes_.has_any(transmission_lobes); }
     // Whether evaluate() can be anything but black.
     bool has_smooth_lobes() const { return (lobes_.bits & ~delta_lobes.bits) != 0; }

@@ -45,7 +45,7 @@ Pixel adaptive_pixel(TestRandom& random)
 const LoadedScene& uneven_scene()
 {
     static const LoadedScene scene = load_text(R"(<scene dialect="plumb">
-  <integrator type="path_mis"/><sampler type="independent"/>
+  <integrator type="path_mis"><boolean name="guide" value="false"/></integrator><sampler type="independent"/>
   <camera type="perspective"><integer name="width" value="20"/><integer name="height" value="15"/>
     <float name="fov" value="40"/>
     <transform name="toWorld"><lookat origin="0,1.5,5" target="0,0.9,0" up="0,1,0"/></transform></camera>

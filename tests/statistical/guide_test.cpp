@@ -17,6 +17,9 @@
 
 namespace plumb {
 class ThinDielectric;
+class RoughConductor;
+class RoughDielectric;
+class Principled;
 } // namespace plumb
 
 using namespace plumb;
@@ -100,6 +103,35 @@ const ChooseRay at_the_floor = ray_to(Vec3f(0.1f, 0.5f, -0.2f), floor_point);
 MeanAndVariance light_at_the_floor(const Scene& scene, bool guided, std::uint64_t samples, std::uint64_t seed)
 {
     return estimate(scene, *make_integrator(two_bounces(guided), scene), at_the_floor, samples, seed);
+}
+
+MakeBsdf metal(double alpha)
+{
+    return [alpha] {
+        return ParamsBuilder("bsdf", "roughconductor").number("alpha", alpha).build<RoughConductor, Bsdf>();
+    };
+}
+MakeBsdf frosted_glass(double alpha)
+{
+    return [alpha] {
+        return ParamsBuilder("bsdf", "roughdielectric").number("alpha", alpha).build<RoughDielectric, Bsdf>();
+    };
+}
+
+// Of a floor that no lamp shines at, under metal. Balls make chains of links of both kinds, in any order.
+enum class Light { lamp, point, sky };
+LittleScene under_metal(double alpha, Light light)
+{
+    LittleScene scene;
+    scene.rectangle(Vec3f(0.f), 6.f, 6.f, Vec3f(0, 1, 0), diffuse(floor_albedo));
+    scene.rectangle(Vec3f(0.f, 2.f, 0.f), 3.f, 3.f, Vec3f(0, -1, 0), metal(alpha));
+    scene.sphere(Vec3f(-0.6f, 0.5f, 0.f), 0.35f, frosted_glass(0.1));
+    scene.sphere(Vec3f(0.f, 0.3f, 0.8f), 0.25f, glass());
+    scene.sphere(Vec3f(0.7f, 0.4f, -0.6f), 0.3f, metal(0.2));
+    scene.rectangle(Vec3f(0.5f, 1.f, 0.3f), 0.6f, 0.5f, Vec3f(0, 1, 0), diffuse(0.f), Color(lamp_radiance));
+    if (light == Light::point) scene.point_light(Vec3f(-0.8f, 1.2f, 0.9f), Color(3.f));
+    if (light == Light::sky) scene.environment(Color(0.5f));
+    return scene;
 }
 
 bool same_bits(float a, float b)
@@ -306,4 +338,67 @@ TEST_CASE("guided paths take no more bounces than others", "[statistical][guide]
             },
             100000, sidak_level(significance, 3));
     }
+}
+
+// Emitter samples at links, and what links meet; of one link, two and any number.
+TEST_CASE("light that shiny surfaces throw is the same with and without a guide", "[statistical][guide]")
+{
+    const ChooseRay among_the_balls = rays_around(Vec3f(0.f, 1.2f, 3.f), Vec3f(0.f, 0.f, 0.3f), 0.9f);
+    const std::array<int, 4> depths{2, 3, 5, -1};
+    const std::array<double, 2> alphas{0.03, 0.2};
+    const double level = sidak_level(significance, 3 * depths.size() * alphas.size());
+    for (const double alpha : alphas) {
+        for (const Light light : {Light::lamp, Light::point, Light::sky}) {
+            const Scene scene = under_metal(alpha, light).build();
+            REQUIRE(CausticGuide::learn(scene, CausticGuide::most_emitted, 0).is_on());
+            for (const int depth : depths) {
+                const auto light_there = [&](bool guided, std::uint64_t n, std::uint64_t seed) {
+                    const auto integrator = make_integrator(
+                        integrator_params("path_mis").integer("maxDepth", depth).boolean("guide", guided),
+                        scene);
+                    return estimate(scene, *integrator, among_the_balls, n, seed);
+                };
+                check_same_mean(
+                    fmt::format("alpha {}, light {}, depth {}", alpha, static_cast<int>(light), depth),
+                    [&](std::uint64_t n, std::uint64_t seed) { return light_there(true, n, seed); },
+                    [&](std::uint64_t n, std::uint64_t seed) { return light_there(false, 4 * n, seed); },
+                    20'000, level);
+            }
+        }
+    }
+}
+
+TEST_CASE("a guide makes light that metal throws less noisy", "[statistical][guide]")
+{
+    // The lamp is small in a ceiling of metal that is nearly a mirror.
+    LittleScene little;
+    little.rectangle(Vec3f(0.f), 6.f, 6.f, Vec3f(0, 1, 0), diffuse(floor_albedo));
+    little.rectangle(Vec3f(0.f, 2.f, 0.f), 6.f, 6.f, Vec3f(0, -1, 0), metal(0.02));
+    little.rectangle(Vec3f(0.8f, 1.f, 0.3f), 0.2f, 0.3f, Vec3f(0, 1, 0), diffuse(0.f), Color(lamp_radiance));
+    const Scene scene = little.build();
+    const double guided = light_at_the_floor(scene, true, 20'000, 1).variance();
+    const double unguided = light_at_the_floor(scene, false, 200'000, 1).variance();
+    CHECK(guided < 0.1 * unguided);
+}
+
+TEST_CASE("a surface is shiny if all that it scatters is glossy", "[unit][guide]")
+{
+    const auto principled = [](double metallic, double spec_trans, double sheen) {
+        return ParamsBuilder("bsdf", "principled")
+            .number("metallic", metallic)
+            .number("specTrans", spec_trans)
+            .number("sheen", sheen)
+            .build<Principled, Bsdf>();
+    };
+    CHECK(are_shiny(metal(0.1)()->lobes()));
+    CHECK(are_shiny(frosted_glass(0.1)()->lobes()));
+    CHECK(are_shiny(principled(1.0, 0.0, 1.0)->lobes()));
+    CHECK(are_shiny(principled(0.0, 1.0, 0.0)->lobes()));
+    CHECK_FALSE(are_shiny(principled(0.0, 1.0, 0.5)->lobes()));
+    CHECK_FALSE(are_shiny(principled(0.9, 0.0, 0.0)->lobes()));
+    CHECK_FALSE(are_shiny(diffuse(0.5f)()->lobes()));
+    CHECK_FALSE(are_shiny(mirror()()->lobes()));
+    for (const MakeBsdf& make : {metal(0.1), frosted_glass(0.1), mirror(), glass()})
+        CHECK(throw_caustics(make()->lobes()));
+    CHECK_FALSE(throw_caustics(diffuse(0.5f)()->lobes()));
 }

@@ -2,6 +2,7 @@
 
 #include "plumb/model/sampler.h"
 #include "plumb/statistics/mean_and_variance.h"
+#include "samplers/stream.h"
 #include "scene_file/catalog.h"
 #include "support/catch.h"
 #include "support/params.h"
@@ -18,15 +19,18 @@ using test::ParamsBuilder;
 
 namespace {
 
+constexpr const char* stream = "stream";
+
 std::unique_ptr<Sampler> make_sampler(const std::string& type, std::uint64_t total = max_samples_per_pixel)
 {
+    if (type == stream) return StreamSampler(1).clone(total);
     return ParamsBuilder("sampler", type).build_type(sampler_types())->clone(total);
 }
 
-// Of the catalog.
+// Of the catalog, and the one that paths use which branch off.
 std::vector<std::string> all_samplers()
 {
-    std::vector<std::string> names;
+    std::vector<std::string> names{stream};
     for (const Entry<Sampler>& entry : sampler_types()) names.emplace_back(entry.name);
     return names;
 }
@@ -138,9 +142,10 @@ TEST_CASE("neighbouring samples are independent and uniform", "[statistical][sam
         std::vector<Neighbour> neighbours; // `index` last: for samples of a pixel that are independent
     };
     const Case one = GENERATE(Case{"independent", {dimension, pixel_across, seed, index}},
+                              Case{stream, {dimension, pixel_across, seed, index}},
                               Case{"sobol", {dimension, pixel_across, seed, vertex}},
                               Case{"stratified", {dimension, pixel_across, seed, vertex}});
-    constexpr std::size_t tests = 12;
+    constexpr std::size_t tests = 16;
     for (const Neighbour neighbour : one.neighbours) {
         const bool passed = test::check_statistic(
             std::string(one.type) + ", pairs of neighbour " + std::to_string(neighbour),

@@ -36,6 +36,17 @@ inline constexpr Lobes delta_lobes = Lobe::delta_reflection | Lobe::delta_transm
 inline constexpr Lobes glossy_lobes = Lobe::glossy_reflection | Lobe::glossy_transmission;
 inline constexpr Lobes transmission_lobes = Lobe::glossy_transmission | Lobe::delta_transmission;
 
+// Shiny surfaces are those that scatter by glossy lobes alone: metals and rough glass. They throw light on in bundles, if wide ones, as
+// mirrors and glass do.
+constexpr bool are_shiny(Lobes lobes)
+{
+    return lobes.has_any(glossy_lobes) && !lobes.has_any(Lobe::diffuse_reflection);
+}
+constexpr bool throw_caustics(Lobes lobes)
+{
+    return lobes.has_any(Lobe::delta_reflection | Lobe::delta_transmission) || are_shiny(lobes);
+}
+
 struct BsdfValue {
     Color f_cos;
     float pdf = 0.f;

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace plumb {
@@ -40,6 +41,14 @@ public:
     void change_sums(std::size_t first, const Map& map)
     {
         for (std::size_t i = first; i < notes_.size(); ++i) notes_[i].sum = map(notes_[i].sum);
+    }
+    // Forgets the notes from number `first` on; the emitter of the last of them.
+    std::optional<std::uint32_t> take_back(std::size_t first)
+    {
+        if (first >= notes_.size()) return std::nullopt;
+        const std::uint32_t emitter = notes_.back().emitter;
+        notes_.resize(first);
+        return emitter;
     }
     void set_depth(std::size_t first, int depth)
     {
