@@ -141,25 +141,65 @@ def stone(seed, rings, segments, roughness):
             along = sum(a * b for a, b in zip(d, n))
             if along > 0:
                 r = min(r, (0.74 + 0.16 * lattice(seed, k, 22)) / along)
-        bumps = sum((noise3(scale(d, f), seed + f) - 0.5) / f ** 1.1 for f in (2, 4, 8, 16, 32))
+        bumps = sum((noise3(scale(d, f), seed + f) - 0.5) / f ** 1.1 for f in (2, 4, 8, 16))  # finer ones would miss vertices
         return r * (1 + roughness * bumps)
 
-    rows = []
     points = [[scale(d, radius(d)) for d in (
         (math.cos(a) * math.cos(p), math.sin(a), math.cos(a) * math.sin(p))
         for p in (2 * math.pi * (j % segments) / segments for j in range(segments + 1)))]
         for a in (math.pi * (i / rings - 0.5) for i in range(rings + 1))]
+    return closed_grid(points, lambda i, j: (j / segments, i / rings))
+
+
+def closed_grid(points, uv=None):
+    """A mesh over rows of points; each row ends where it begins. uv maps the number of the row and of the point in it to (u, v)."""
+    rows = []
+    segments = len(points[0]) - 1
     for i, row in enumerate(points):
-        before, after = points[max(i - 1, 0)], points[min(i + 1, rings)]
+        before, after = points[max(i - 1, 0)], points[min(i + 1, len(points) - 1)]
         out = []
         for j, p in enumerate(row):
             around = subtract(row[(j + 1) % segments], row[(j - 1) % segments])
             normal = cross(subtract(after[j], before[j]), around)
-            out.append((p, normalize(normal) if math.hypot(*normal) > 1e-9 else (0, math.copysign(1, p[1]), 0), None))
+            up = (0, -1 if i == 0 else 1, 0)  # where a row is a point
+            out.append((p, normalize(normal) if math.hypot(*normal) > 1e-9 else up, uv(i, j) if uv else None))
         rows.append(out)
     mesh = Mesh()
     mesh.add_grid(rows)
     return mesh
+
+
+def granite(u, v):
+    """Of a stone: grey with dark grains, and lichen in patches, more of it above."""
+    a, p = math.pi * (v - 0.5), 2 * math.pi * u
+    d = (math.cos(a) * math.cos(p), math.sin(a), math.cos(a) * math.sin(p))
+    tone = 0.6 * noise3(scale(d, 3), 41) + 0.4 * noise3(scale(d, 9), 42)
+    grain = smoothstep(0.55, 0.8, noise3(scale(d, 50), 43))
+    colour = scale(mix((0.23, 0.215, 0.2), (0.12, 0.12, 0.125), tone), 1 - 0.45 * grain)
+    patch = 0.65 * noise3(scale(d, 5), 44) + 0.35 * noise3(scale(d, 19), 45) + 0.1 * d[1]
+    return mix(colour, (0.27, 0.27, 0.15), 0.75 * smoothstep(0.58, 0.66, patch))
+
+
+def leaf():
+    """A maple leaf of five lobes, curled up at its edge; its front is above, its stalk behind."""
+    segments, rings = 120, 8
+
+    def reach(angle):
+        lobe = abs(math.cos(2.5 * angle)) ** 0.8
+        ahead = 0.5 + 0.5 * math.cos(angle)  # the lobes in front are the longer ones
+        teeth = 1 + 0.06 * math.cos(30 * angle)
+        return (0.16 + (0.34 + 0.5 * ahead) * lobe) * teeth * (1 - 0.75 * smoothstep(2.75, 3.14, abs(angle)))
+
+    points = []
+    for i in range(rings + 1):
+        row = []
+        for j in range(segments + 1):
+            angle = 2 * math.pi * (j % segments) / segments
+            r = reach(math.remainder(angle, 2 * math.pi)) * (1 - i / rings)
+            vein = 0.05 * r * abs(math.cos(2.5 * angle))
+            row.append((r * math.cos(angle), 0.28 * r * r * (0.6 + 0.4 * math.sin(2 * angle + 1)) - vein, r * math.sin(angle)))
+        points.append(row)
+    return closed_grid(points)
 
 
 # Where stones stand in the sand: x, z, and how far the rings around them reach.
@@ -170,13 +210,14 @@ def sand_height(x, z):
     """Raked straight along x, and in rings around the stones."""
     period, depth = 0.16, 0.034
     wobble = 0.03 * (noise(0.5 * x, 0.5 * z, 31) - 0.5)
-    phase, height = z + wobble, 0.0
+    phase, flat = z + wobble, 0.0
     for sx, sz, reach in STONES:
         distance = math.hypot(x - sx, z - sz)
         if distance < reach:
             phase = distance + wobble
+        flat = max(flat, 1 - smoothstep(0.0, 0.06, abs(distance - reach)))  # a smooth path where the directions meet
     wave = 0.5 - 0.5 * math.cos(2 * math.pi * phase / period)
-    height = depth * wave ** 0.8
+    height = depth * wave * (1 - flat)
     return height + 0.006 * noise(9 * x, 9 * z, 32)
 
 
@@ -221,11 +262,12 @@ def files():
     """Path below scenes/gallery -> bytes."""
     meshes = {"pawn": pawn(), "rook": rook(), "bishop": bishop(), "queen": queen(), "king": king(), "cross": cross_of_king()}
     for number in range(3):
-        meshes[f"stone{number + 1}"] = stone(number + 5, 44, 80, 0.5)
-    meshes |= {**lantern(), "bamboo": bamboo()}
+        meshes[f"stone{number + 1}"] = stone(number + 5, 72, 128, 0.5)
+    meshes |= {**lantern(), "bamboo": bamboo(), "leaf": leaf()}
     result = {f"meshes/{name}.ply": mesh.to_ply() for name, mesh in meshes.items()}
     result["textures/board.png"] = png(image(512, 512, board))
     result["textures/weave.png"] = linear_png(image(64, 64, weave))
+    result["textures/granite.png"] = png(image(512, 256, granite))
     result["textures/sand.png"] = linear_png(image(896, 896, sand))
     result["textures/window.hdr"] = hdr(image(256, 128, window))
     return result
