@@ -98,7 +98,7 @@ public:
     }
 
     bool can_emit() const { return choice_.can_sample(); }
-    // Of all photons, when as many are counted as are emitted.
+    // What emitters send towards the targets, luminance: each photon stands for an equal part of it.
     double flux() const { return flux_; }
 
     // Where the photon begins. Nothing for the part of them by which the others become as many as the light is bright.

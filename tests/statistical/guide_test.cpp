@@ -118,7 +118,7 @@ MakeBsdf frosted_glass(double alpha)
     };
 }
 
-// Of a floor that no lamp shines at, under metal. Balls make chains of links of both kinds, in any order.
+// A floor under metal, and a lamp that shines away from the floor. Balls make chains of links of both kinds, in any order.
 enum class Light { lamp, point, sky };
 LittleScene under_metal(double alpha, Light light)
 {
@@ -370,7 +370,7 @@ TEST_CASE("light that shiny surfaces throw is the same with and without a guide"
 
 TEST_CASE("a guide makes light that metal throws less noisy", "[statistical][guide]")
 {
-    // The lamp is small in a ceiling of metal that is nearly a mirror.
+    // A small lamp shines up at a ceiling of metal that is nearly a mirror.
     LittleScene little;
     little.rectangle(Vec3f(0.f), 6.f, 6.f, Vec3f(0, 1, 0), diffuse(floor_albedo));
     little.rectangle(Vec3f(0.f, 2.f, 0.f), 6.f, 6.f, Vec3f(0, -1, 0), metal(0.02));
