@@ -261,10 +261,11 @@ TEST_CASE("the real denoiser lowers the error, with guides and without", "[cli][
         REQUIRE(directory.run(words).exit_code == 0);
         return read_image(directory / words[2], false);
     };
+    // Naive path tracing stays noisy, whatever is done for the other integrators.
     const Image truth = render({"-o", "t.exr", "--spp", "4096", "--seed", "1"});
-    const Image noisy = render({"-o", "a.exr", "--spp", "16"});
-    const Image guided =
-        denoised(render({"-o", "g.exr", "--spp", "16", "--aov", "albedo_behind,normal_behind"}));
+    const Image noisy = render({"-o", "a.exr", "--spp", "16", "--integrator", "path"});
+    const Image guided = denoised(render(
+        {"-o", "g.exr", "--spp", "16", "--integrator", "path", "--aov", "albedo_behind,normal_behind"}));
     const auto error = [&](const Image& image) {
         double sum = 0.0;
         for (int y = 0; y < 36; ++y)
@@ -274,7 +275,7 @@ TEST_CASE("the real denoiser lowers the error, with guides and without", "[cli][
         return std::sqrt(sum / (36 * 48 * 3));
     };
     CAPTURE(error(noisy), error(denoised(noisy)), error(guided));
-    CHECK(error(denoised(noisy)) < 0.7 * error(noisy));
-    CHECK(error(guided) < 0.7 * error(noisy));
+    CHECK(error(denoised(noisy)) < 0.5 * error(noisy));
+    CHECK(error(guided) < 0.5 * error(noisy));
     CHECK(denoised_text(guided.metadata).starts_with("Open Image Denoise 2."));
 }
