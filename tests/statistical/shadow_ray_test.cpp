@@ -32,6 +32,7 @@ SurfacePoint receiver_at(const Vec3f& position)
 {
     SurfacePoint at;
     at.position = position;
+    at.geometric_normal = Vec3f(0.f); // of no surface: nothing to be moved off
     return at;
 }
 
