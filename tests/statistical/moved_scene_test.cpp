@@ -131,7 +131,7 @@ MovableScenes movable_box()
 
 TEST_CASE("the Cornell box looks the same wherever it stands", "[statistical][shadow_ray]")
 {
-    check_moves(movable_box(), "cbox/cbox_mis.xml", "path_mis", Objects::all, 640, 0.01);
+    check_moves(movable_box(), "cbox/cbox_mis.xml", "path_mis", Objects::all, 128, 0.01);
 }
 
 TEST_CASE("the Cornell box by light sampling looks the same wherever it stands",
@@ -143,7 +143,7 @@ TEST_CASE("the Cornell box by light sampling looks the same wherever it stands",
 TEST_CASE("Veach's plates look the same wherever they stand", "[statistical][shadow_ray]")
 {
     check_moves(MovableScenes({"veach_mi/parts/plates.xml"}), "veach_mi/veach_mis.xml", "path_mis",
-                Objects::emitters, 640, 0.1);
+                Objects::emitters, 160, 0.05);
 }
 
 TEST_CASE("Veach's plates look the same to a percent wherever they stand", "[statistical][shadow_ray][slow]")
