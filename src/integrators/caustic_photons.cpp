@@ -235,7 +235,7 @@ void trace_photon(Tracer& tracer, const PhotonSource& source, std::uint64_t inde
                                to_last, direct_irradiance(tracer, vertex, u_choice, u_light), is_glossy,
                                to_emitter});
         }
-        if (!(next->is_delta() || vertex.is_shiny()) || (hit->emitter && scene.emitters_absorb())) return;
+        if (!vertex.is_link(*next) || (hit->emitter && scene.emitters_absorb())) return;
         if (next->is_pass()) {
             ray = hit->spawn_ray(ray.direction);
             continue;

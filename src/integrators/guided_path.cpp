@@ -20,22 +20,13 @@ Color GuidedPath::radiance(Tracer& tracer, Sampler& sampler, const Ray& ray) con
     return trace_path(*this, tracer, sampler, ray);
 }
 
-float GuidedPath::weight_of_direction(const GuidedPathState& path) const
+// Of the BSDF's direction from the last vertex that was no link, against the guide's.
+float GuidedPath::chain_weight(const GuidedPathState& path, int more_links) const
 {
+    const int links = path.chain + more_links;
+    if (!path.cell || links == 0 || links > longest_chain) return 1.f;
     return mis_weight(heuristic(), path.pdf_of_direction,
                       path.directions * path.cell->pdf(path.position, path.direction)); // [1]
-}
-
-float GuidedPath::chain_weight(const GuidedPathState& path) const
-{
-    if (!path.cell || path.chain == 0 || path.chain > longest_chain) return 1.f;
-    return weight_of_direction(path);
-}
-
-float GuidedPath::direct_weight(const GuidedPathState& path) const
-{
-    if (!path.cell || path.chain >= longest_chain) return 1.f;
-    return weight_of_direction(path);
 }
 
 Color GuidedPath::with_waiting(Tracer& tracer, GuidedPathState& path, int depth, Color sum) const
@@ -112,10 +103,12 @@ void GuidedPath::follow(Tracer& tracer, GuidedPathState& path, Chain chain) cons
         const bool passes_only = chain.depth == max_depth() || length == longest_chain;
         if (!(vertex.has_delta_lobes() || vertex.is_shiny()) || (passes_only && !scene.has_null_surfaces()))
             return;
-        vertex.know_sky(sky_at(vertex));
         const std::optional<BsdfSample> next = scatter(sampler, vertex);
-        if (!passes_only && vertex.is_shiny()) find_direct(tracer, sampler, path, chain, vertex);
-        if (!next || !(next->is_delta() || vertex.is_shiny())) return;
+        if (!passes_only && vertex.is_shiny()) {
+            vertex.know_sky(sky_at(vertex));
+            find_direct(tracer, sampler, path, chain, vertex);
+        }
+        if (!next || !vertex.is_link(*next)) return;
         if (next->is_pass()) {
             chain.path.pass(*next);
             if (counts_passes() && chain.depth++ == max_depth()) return;

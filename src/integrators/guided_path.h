@@ -4,7 +4,7 @@
 // The path tracer that looks for emitters in a third way: from surfaces with a diffuse lobe, through chains of mirrors, glass and what is nearly
 // as smooth, in directions that a guide knows.
 //
-// The links of a chain are delta bounces and bounces at shiny surfaces (Vertex::is_shiny), `longest_chain` at most. It begins at a
+// The links of a chain are delta bounces and bounces at shiny surfaces (Vertex::is_link), `longest_chain` at most. It begins at a
 // surface with a diffuse lobe, and finds what its links find: the emitters that its rays meet, and emitter samples at shiny links. Two
 // directions at its beginning lead there, one of the BSDF and one of the guide. What follows from a direction has the same
 // expectation, whoever chose it, so the densities of the two decide their weights (Veach 1997, section 9.2). What lies behind
@@ -24,7 +24,7 @@ struct GuidedPathState : PathState {
     void extend(const Vertex& vertex, const BsdfSample& next)
     {
         PathState::extend(vertex, next);
-        if (next.is_delta() || vertex.is_shiny()) {
+        if (vertex.is_link(next)) {
             ++chain;
             return;
         }
@@ -76,8 +76,7 @@ public:
     Color radiance(Tracer& tracer, Sampler& sampler, const Ray& ray) const;
 
     // Asked by path_loop.h beside what it asks of every technique.
-    float chain_weight(const GuidedPathState& path) const;
-    float direct_weight(const GuidedPathState& path) const;
+    float chain_weight(const GuidedPathState& path, int more_links) const;
     void find_chains(Tracer& tracer, Sampler& sampler, GuidedPathState& path, const Vertex& vertex,
                      int bounces) const;
     Color with_waiting(Tracer& tracer, GuidedPathState& path, int depth, Color sum) const;
@@ -94,8 +93,6 @@ private:
     // From a link.
     void find_direct(Tracer& tracer, Sampler& sampler, GuidedPathState& path, const Chain& chain,
                      const Vertex& vertex) const;
-    // Of a BSDF's direction from the last vertex that was no link, against the guide's.
-    float weight_of_direction(const GuidedPathState& path) const;
 
     const CausticGuide* guide_;
 };

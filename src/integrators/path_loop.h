@@ -18,8 +18,7 @@
 // and, all or none, of techniques that look for emitters behind links by other means, too (guided_path.h):
 //
 //     State                                                     a PathState that knows more
-//     float chain_weight(const State&) const                    the weight of what the path meets after links
-//     float direct_weight(const State&) const                   the weight of direct() at a shiny vertex
+//     float chain_weight(const State&, int more_links) const    the weight of what the path finds, so many links on
 //     void find_chains(Tracer&, Sampler&, State&, const Vertex&, int bounces) const
 //                                                               looks by the other means; what is found waits in the state
 //     Color with_waiting(Tracer&, State&, int depth, const Color& sum) const
@@ -128,7 +127,7 @@ template <class Technique>
 float weight_behind_links(const Technique& technique, const typename StateOf<Technique>::Type& path)
 {
     if constexpr (LooksBehindLinks<Technique>)
-        return technique.chain_weight(path);
+        return technique.chain_weight(path, 0);
     else
         return 1.f;
 }
@@ -167,7 +166,7 @@ Color scattered(const Technique& technique, Tracer& tracer, Sampler& sampler,
         found = technique.direct(tracer, sampler, vertex);
     if constexpr (LooksBehindLinks<Technique>) {
         if (vertex.is_shiny() && !found.is_black()) {
-            const float weight = technique.direct_weight(path);
+            const float weight = technique.chain_weight(path, 1);
             found *= weight;
             tracer.change_noted_light(noted, [weight](const Color& sum) { return sum * weight; });
         }

@@ -49,6 +49,9 @@ public:
         return {at_.position, wi_.z < 0.f ? -at_.shading.n : at_.shading.n, is_glossy(), sky_};
     }
 
+    // Whether the bounce is a link of chains (guided_path.h).
+    bool is_link(const BsdfSample& sampled) const { return sampled.is_delta() || is_shiny(); }
+
     // Whether a sample goes on where the path came from, to rounding.
     bool goes_straight(const BsdfSample& sampled) const { return length_squared(sampled.wo + wi_) < 1e-10f; }
 

@@ -43,17 +43,17 @@ LittleScene balls()
 
 // Of a floor under a lamp that shines upwards, into a mirror at y = 2: it is lit by what seems a lamp at y = 3.
 const Vec3f floor_point(0.1f, 0.f, -0.2f);
-LittleScene mirror_and_lamp()
+LittleScene lamp_under(const MakeBsdf& ceiling)
 {
     LittleScene scene;
     scene.rectangle(Vec3f(0.f), 6.f, 6.f, Vec3f(0, 1, 0), diffuse(floor_albedo));
-    scene.rectangle(Vec3f(0.f, 2.f, 0.f), 6.f, 6.f, Vec3f(0, -1, 0), mirror());
+    scene.rectangle(Vec3f(0.f, 2.f, 0.f), 6.f, 6.f, Vec3f(0, -1, 0), ceiling);
     scene.rectangle(Vec3f(0.8f, 1.f, 0.3f), 0.2f, 0.3f, Vec3f(0, 1, 0), diffuse(0.f), Color(lamp_radiance));
     return scene;
 }
 Scene mirrored_lamp()
 {
-    return mirror_and_lamp().build();
+    return lamp_under(mirror()).build();
 }
 
 // 1 - R of a thin pane, whose faces reflect r each: R = 2 r / (1 + r), of index 1.5.
@@ -231,7 +231,7 @@ TEST_CASE("light from a lamp behind a pane has its integral, with and without a 
 TEST_CASE("a lamp in the way of guided directions counts once", "[statistical][guide]")
 {
     // Half of the lamp in the mirror is behind another one, which emitter samples and the BSDF find.
-    LittleScene scene = mirror_and_lamp();
+    LittleScene scene = lamp_under(mirror());
     scene.rectangle(Vec3f(0.363f, 1.f, -0.033f), 0.06f, 0.2f, Vec3f(0, -1, 0), diffuse(0.f),
                     Color(lamp_radiance));
     const Scene lamps = scene.build();
@@ -370,12 +370,7 @@ TEST_CASE("light that shiny surfaces throw is the same with and without a guide"
 
 TEST_CASE("a guide makes light that metal throws less noisy", "[statistical][guide]")
 {
-    // A small lamp shines up at a ceiling of metal that is nearly a mirror.
-    LittleScene little;
-    little.rectangle(Vec3f(0.f), 6.f, 6.f, Vec3f(0, 1, 0), diffuse(floor_albedo));
-    little.rectangle(Vec3f(0.f, 2.f, 0.f), 6.f, 6.f, Vec3f(0, -1, 0), metal(0.02));
-    little.rectangle(Vec3f(0.8f, 1.f, 0.3f), 0.2f, 0.3f, Vec3f(0, 1, 0), diffuse(0.f), Color(lamp_radiance));
-    const Scene scene = little.build();
+    const Scene scene = lamp_under(metal(0.02)).build(); // nearly a mirror
     const double guided = light_at_the_floor(scene, true, 20'000, 1).variance();
     const double unguided = light_at_the_floor(scene, false, 200'000, 1).variance();
     CHECK(guided < 0.1 * unguided);
