@@ -11,7 +11,7 @@ namespace plumb {
 
 // What is asked of a triangle again and again.
 struct FlatTriangle {
-    explicit FlatTriangle(const TriangleCorners& corners);
+    explicit FlatTriangle(const TriangleCorners& t);
 
     std::array<Vec3d, 3> corners;
     Vec3d normal;     // of unit length; which side is the front is another question

@@ -16,18 +16,18 @@ namespace plumb {
 
 namespace {
 
-bool is_name_start(char c)
+bool starts_variable(char c)
 {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
 }
 
 // The name at the start of `text`, possibly empty.
-std::string_view leading_name(std::string_view text)
+std::string_view leading_variable(std::string_view text)
 {
-    if (text.empty() || !is_name_start(text[0])) return {};
+    if (text.empty() || !starts_variable(text[0])) return {};
     std::size_t end = 1;
     while (end < text.size() &&
-           (is_name_start(text[end]) || (text[end] >= '0' && text[end] <= '9') || text[end] == '-'))
+           (starts_variable(text[end]) || (text[end] >= '0' && text[end] <= '9') || text[end] == '-'))
         ++end;
     return text.substr(0, end);
 }
@@ -43,20 +43,12 @@ Use use_at(std::string_view text, std::size_t dollar)
     const std::string_view rest = text.substr(dollar + 1);
     if (rest.starts_with('$')) return {{}, 2};
     if (rest.starts_with('{')) {
-        const std::string_view name = leading_name(rest.substr(1));
+        const std::string_view name = leading_variable(rest.substr(1));
         const bool closed = !name.empty() && rest.substr(1 + name.size()).starts_with('}');
         return {name, closed ? name.size() + 3 : 0};
     }
-    const std::string_view name = leading_name(rest);
+    const std::string_view name = leading_variable(rest);
     return {name, name.empty() ? 0 : name.size() + 1};
-}
-
-// Elements and attributes. Recursion ends: parse_document().
-std::size_t count_parts(const Element& element)
-{
-    std::size_t count = 1 + element.attributes.size();
-    for (const Element& child : element.children) count += count_parts(child);
-    return count;
 }
 
 class Expander {
@@ -71,7 +63,7 @@ public:
         open_.push_back(identity(root.file->path()));
         if (root.tag == "suite") kind_ = "suite";
         text_size_ = root.file->text().size();
-        parts_ = count_parts(root);
+        parts_ = root.count_parts();
         gather_children(root);
         substitute_all(root);
         reject_unused_definitions();
@@ -115,7 +107,7 @@ private:
         reject_children(element);
         if (!check_attributes(element, {"name", "value"}, {}, diagnostics_)) return;
         const std::string name = element.value("name");
-        if (leading_name(name) != name || name.empty()) {
+        if (leading_variable(name) != name || name.empty()) {
             diagnostics_.error(
                 element.value_place(*element.attribute("name")),
                 fmt::format("'{}' cannot name a value; names consist of letters, digits, - and _, and "
@@ -166,7 +158,7 @@ private:
             return;
         }
         files_.push_back(root->file);
-        parts_ += count_parts(*root);
+        parts_ += root->count_parts();
         if (parts_ > limits_.parts)
             return fail(fmt::format("with '{}', this {} has more than {} elements and attributes",
                                     path.string(), kind_, limits_.parts));
@@ -271,7 +263,7 @@ private:
         std::set<std::string_view> names(used_.begin(), used_.end());
         names.insert(declared_.begin(), declared_.end());
         for (const auto& [name, value] : definitions_) {
-            if (names.count(name) > 0) continue;
+            if (names.contains(name)) continue;
             diagnostics_.error({}, fmt::format("-D {}={}: no file of this {} uses ${}{}", name, value, kind_,
                                                name, way_out(name, {names.begin(), names.end()})));
         }

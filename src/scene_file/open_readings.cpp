@@ -15,16 +15,9 @@ namespace {
 // Integrators whose images do not depend on what emitters do to light.
 constexpr std::string_view blind_integrators[] = {"normals", "depth", "ao", "av", "simple"};
 
-const Element* child_named(const Element& element, std::string_view name)
-{
-    const auto found = std::find_if(element.children.begin(), element.children.end(),
-                                    [&](const Element& child) { return child.value("name") == name; });
-    return found == element.children.end() ? nullptr : &*found;
-}
-
 bool is_black(const Element& bsdf)
 {
-    const Element* albedo = child_named(bsdf, "albedo");
+    const Element* albedo = bsdf.child_named("albedo");
     return bsdf.value("type") == "diffuse" && albedo && albedo->tag == "color" &&
            albedo->value("value").find_first_of("123456789") == std::string::npos;
 }
@@ -47,7 +40,7 @@ private:
                 std::end(blind_integrators))
             sees_emitters = false;
         if (element.tag == "emitter" && type == "directional") has_sun = true;
-        if (element.tag == "emitter" && type == "environment" && child_named(element, "filename"))
+        if (element.tag == "emitter" && type == "environment" && element.child_named("filename"))
             has_image_around = true;
         if (element.tag == "mesh" || element.tag == "shape") visit_shape(element);
         for (const Element& child : element.children) visit(child);
@@ -72,8 +65,9 @@ double mean_around(const Scene& scene)
         if (!emitter->is_infinite() || emitter->is_delta()) continue;
         constexpr int side = 16;
         for (int i = 0; i < side * side; ++i) {
+            const int row = i / side;
             const Vec2f u((static_cast<float>(i % side) + 0.5f) / side,
-                          (static_cast<float>(i / side) + 0.5f) / side);
+                          (static_cast<float>(row) + 0.5f) / side);
             if (const auto light = emitter->sample({}, 0.5, u, Measure::best))
                 mean +=
                     static_cast<double>(luminance(light->radiance) / light->pdf) / (4.0 * pi_d * side * side);
