@@ -5,7 +5,7 @@ namespace plumb {
 
 namespace {
 
-constexpr double roundings = 16.0 * static_cast<double>(unit_roundoff);
+constexpr double roundings_d = 16.0 * static_cast<double>(unit_roundoff);
 
 // What rounding does to a plane's offset: the coordinates' errors along its normal.
 double plane_error(const FlatTriangle& triangle, const Vec3d& normal)
@@ -16,7 +16,7 @@ double plane_error(const FlatTriangle& triangle, const Vec3d& normal)
         for (const Vec3d& corner : triangle.corners) largest = std::max(largest, std::abs(corner[axis]));
         error += largest * std::abs(normal[axis]);
     }
-    return roundings * error;
+    return roundings_d * error;
 }
 
 struct Interval {
@@ -77,7 +77,7 @@ std::optional<double> overlap_tolerance(const FlatTriangle& a, const FlatTriangl
     for (const Vec3d& corner : small.corners)
         if (std::abs(dot(large.normal, corner - large.corners[0])) > tolerance) return {};
     constexpr double narrow = 1e-3; // of the smaller triangle's width
-    const double strip = std::max(roundings * (a.magnitude + b.magnitude), narrow * std::sqrt(small.area));
+    const double strip = std::max(roundings_d * (a.magnitude + b.magnitude), narrow * std::sqrt(small.area));
     if (is_separated_by_edge_of(a, b, strip) || is_separated_by_edge_of(b, a, strip)) return {};
     return tolerance;
 }

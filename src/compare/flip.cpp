@@ -40,7 +40,7 @@ std::vector<Vec3d> clamped(const std::vector<Color>& image)
     return result;
 }
 
-double median(std::vector<double> values)
+double upper_median(std::vector<double> values)
 {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());
@@ -48,7 +48,7 @@ double median(std::vector<double> values)
 }
 
 // Exposures in steps of about one stop: in the first, the brightest pixel of the reference is not yet white, in the
-// last its median is ([2], section 3).
+// last its upper_median is ([2], section 3).
 std::vector<double> exposures(const std::vector<Color>& reference)
 {
     std::vector<double> all;
@@ -68,11 +68,12 @@ std::vector<double> exposures(const std::vector<Color>& reference)
     const double c = -nearly_white * F::b2;
     const double x_max = (-b + std::sqrt(b * b - 4.0 * a * c)) / (2.0 * a);
 
-    const double middle = median(all);
+    const double middle = upper_median(all);
     const double start = log(x_max / *std::max_element(lit.begin(), lit.end())) / ln_2;
-    const double stop = log(x_max / (middle > 0.0 ? middle : median(lit))) / ln_2;
+    const double stop = log(x_max / (middle > 0.0 ? middle : upper_median(lit))) / ln_2;
     const int count = std::max(2, static_cast<int>(std::ceil(stop - start)));
     std::vector<double> result;
+    result.reserve(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i) result.push_back(start + i * (stop - start) / (count - 1));
     return result;
 }

@@ -30,7 +30,7 @@ namespace {
 // Of the chance of a false alarm. The squares have the rest, in equal parts for each size, but for 0.05, which
 // verdict.cpp has for shifts.
 constexpr double share_of_squares = 0.4;
-constexpr double share_of_whole = 0.4;
+constexpr double share_of_image = 0.4;
 constexpr double share_of_spread = 0.15;
 // Found by simulation (tests/statistical/paired_test.cpp).
 constexpr double least_effective_pixels = 6.0;
@@ -38,7 +38,7 @@ constexpr double largest_share = 0.5;        // of the spread of a square, in on
 constexpr double largest_spread_share = 0.3; // of the variance of the sum over squares, in one of them
 constexpr double least_squares = 4.0;        // effective number of those
 constexpr std::array square_sizes = {8, 16, 32, 64};
-constexpr std::array surroundings = {16, 64};
+constexpr std::array around_sizes = {16, 64};
 // Where the correlation reaches too far, or an image has no noise in its pixels, d may be what a denoiser has left of A's noise, or a smooth error. No denoiser
 // makes the error of a sum larger than it was. So only that is a difference which would be one even if the noise of the
 // sums were that of independent pixels with so many times the variance that neighbours show, or that the other image is
@@ -69,7 +69,7 @@ public:
         for (std::size_t channel = 0; channel < a.channels.size(); ++channel) {
             whole_.push_back(paired_sums(pixels_[channel], Squares(0, a_.window)).front());
             around_.emplace_back();
-            for (const int size : surroundings)
+            for (const int size : around_sizes)
                 around_.back().push_back(paired_sums(pixels_[channel], Squares(size, a_.window)));
         }
         find_ratio();
@@ -83,7 +83,7 @@ public:
     Significance run()
     {
         Significance result;
-        const double whole_share = sizes_.empty() ? 0.95 : share_of_whole;
+        const double whole_share = sizes_.empty() ? 0.95 : share_of_image;
         const double share = share_of_squares / static_cast<double>(std::max<std::size_t>(sizes_.size(), 1));
         find_detectable_bias(result, whole_share);
         const ScaleTest whole = test_scale(0, whole_share, false);
@@ -203,12 +203,12 @@ private:
         double least = 0.0;
         if (size == 0) return least;
         const int longest = std::max(a_.window.width, a_.window.height);
-        for (std::size_t level = 0; level < surroundings.size(); ++level) {
-            if (size >= surroundings[level]) continue;
+        for (std::size_t level = 0; level < around_sizes.size(); ++level) {
+            if (size >= around_sizes[level]) continue;
             const PairedSums& around =
-                surroundings[level] >= longest
+                around_sizes[level] >= longest
                     ? whole_[channel]
-                    : around_[channel][level][Squares(surroundings[level], a_.window)
+                    : around_[channel][level][Squares(around_sizes[level], a_.window)
                                                   .index(place.x - a_.window.x, place.y - a_.window.y)];
             if (around.pixels > 0.0) least = std::max(least, around.spread / around.pixels);
         }
@@ -218,7 +218,7 @@ private:
     // Mean of the rough variances in the 64x64 pixels around every square.
     void find_rough_variances()
     {
-        const Squares squares(surroundings.back(), a_.window);
+        const Squares squares(around_sizes.back(), a_.window);
         for (const PairedPixels& pixels : pixels_) {
             const std::vector<double> all = pixels.rough_variances();
             std::vector<double> sums(squares.count() + 1, 0.0); // the last one: of the whole
@@ -247,7 +247,7 @@ private:
                 std::max(hidden_noise, noise_.inflation) *
                     std::max(sums.difference_variance(), sums.pixels * least_around(place, size, channel)),
                 hidden_freedom);
-        const Squares squares(surroundings.back(), a_.window);
+        const Squares squares(around_sizes.back(), a_.window);
         const double rough =
             size == 0 ? rough_[channel].back()
                       : rough_[channel][squares.index(place.x - a_.window.x, place.y - a_.window.y)];
@@ -409,7 +409,7 @@ private:
     {
         const double of_whole = whole_[channel].spread / whole_[channel].pixels;
         const double around =
-            size < surroundings.back() ? least_around(place, surroundings.front(), channel) : 0.0;
+            size < around_sizes.back() ? least_around(place, around_sizes.front(), channel) : 0.0;
         double variance = sums.pixels * (around > 0.0 ? std::max(around, 0.1 * of_whole) : of_whole);
         if (noise_.ratio) variance = std::max(variance, *noise_.ratio * sums.variance);
         return variance;

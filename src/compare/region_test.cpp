@@ -8,13 +8,13 @@ namespace {
 // Found by simulation (tests/statistical/compare_test.cpp): with these, the error rate holds.
 constexpr double least_effective_samples = 32.0;
 constexpr double least_freedom = 16.0;
-constexpr double largest_share = 0.5;
+constexpr double largest_pixel_share = 0.5;
 
 bool is_supported(const SideSums& sums, std::uint64_t pixels, double inflation)
 {
     if (sums.effective_samples() < least_effective_samples) return false;
     if (sums.degrees_of_freedom() < least_freedom * inflation) return false;
-    return pixels == 1 || sums.largest <= largest_share * sums.variance;
+    return pixels == 1 || sums.largest <= largest_pixel_share * sums.variance;
 }
 
 } // namespace

@@ -24,7 +24,7 @@ namespace {
 
 constexpr int square_side = 16;
 constexpr int opposite_side = 8; // of the squares that are compared with the opposite shift
-constexpr std::uint64_t least_squares = 12;
+constexpr std::uint64_t least_gains = 12;
 // The two averages of half a pixel's shift keep 0.313 and 0.318 of the noise's variance.
 constexpr double margin = 0.02;
 
@@ -73,7 +73,7 @@ std::optional<Gain> gain(const std::vector<double>& q, const std::vector<double>
     MeanAndVariance gains;
     for (std::size_t i = 0; i < q.size(); ++i)
         if (q[i] + r[i] > 0.0) gains.add((q[i] - r[i]) / (q[i] + r[i]) - less);
-    if (gains.count() < least_squares) return {};
+    if (gains.count() < least_gains) return {};
     if (!(gains.mean() > 0.0)) return Gain{gains.mean(), 1.0};
     const double t = gains.mean() / std::max(gains.standard_error(), 1e-9);
     return Gain{gains.mean(), 0.5 * student_t_two_sided(t, static_cast<double>(gains.count() - 1))};

@@ -7,11 +7,6 @@
 #include <fmt/format.h>
 
 namespace plumb {
-namespace {
-
-constexpr float largest_depth = 1e9f;
-
-} // namespace
 
 bool ConfiguredPath::is_asked_for(const Params& params)
 {
@@ -74,7 +69,7 @@ void ConfiguredPath::read_termination(const Params& params)
 
 float ConfiguredPath::read_bounces(const Params& params) const
 {
-    const float bounces = params.number("termination-param", 2.f, Range::closed(0.0, largest_depth));
+    const float bounces = params.number("termination-param", 2.f, Range::closed(0.0, largest_path_depth));
     if (bounces == std::floor(bounces)) return bounces;
     params.fail(
         "termination-param",

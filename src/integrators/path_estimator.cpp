@@ -5,8 +5,6 @@
 namespace plumb {
 namespace {
 
-constexpr int largest_depth = 1'000'000'000;
-
 // However bright, a path ends some day; but not early: the survivors of a chain that loses nothing, inside glass say,
 // would weigh more with each bounce.
 constexpr int uncapped_bounces = 128;
@@ -20,9 +18,10 @@ constexpr float kept_throughput = 0.4f;
 
 PathLimits::PathLimits(const Params& params)
 {
-    max_depth = static_cast<int>(params.integer("maxDepth", max_depth, Range::closed(-1, largest_depth)));
+    max_depth =
+        static_cast<int>(params.integer("maxDepth", max_depth, Range::closed(-1, largest_path_depth)));
     roulette_depth =
-        static_cast<int>(params.integer("rrDepth", roulette_depth, Range::closed(0, largest_depth)));
+        static_cast<int>(params.integer("rrDepth", roulette_depth, Range::closed(0, largest_path_depth)));
     count_passes = params.boolean("countPasses", count_passes);
     hide_emitters = params.boolean("hideEmitters", false);
 }

@@ -10,6 +10,8 @@
 
 namespace plumb {
 
+inline constexpr int largest_path_depth = 1'000'000'000;
+
 // How long paths get.
 struct PathLimits {
     int max_depth = -1;         // surface bounces; -1: any number

@@ -17,10 +17,10 @@ namespace {
 
 constexpr std::size_t paths_of_a_part = 64;
 constexpr std::size_t parts = 64;
-constexpr std::size_t first_parts = 16;      // after which the others know where to look
+constexpr std::size_t first_lesson = 16;     // after which the others know where to look
 constexpr std::uint64_t path_key = 0x736b79; // "sky"
 constexpr int most_bounces = 4;              // from surfaces that scatter
-constexpr int most_surfaces = 32;            // passes and delta bounces included
+constexpr int most_hits = 32;                // passes and delta bounces included
 constexpr std::size_t looks = 8;             // into the sky from each surface, of each kind
 constexpr std::size_t most_places = 256;     // of a cell
 
@@ -73,7 +73,7 @@ public:
         const Vec2f size(camera_.resolution());
         Ray ray = camera_.sample_ray({film.x * size.x, film.y * size.y}, lens).ray;
         int bounces = 0;
-        for (int surfaces = 0; surfaces < most_surfaces; ++surfaces) {
+        for (int surfaces = 0; surfaces < most_hits; ++surfaces) {
             if (!is_traceable(ray)) return;
             const auto hit = scene_.intersect(ray);
             if (!hit || (hit->emitter && scene_.emitters_absorb())) return;
@@ -191,8 +191,8 @@ SkyGuide SkyGuide::learn(const Scene& scene, const Camera& camera, int threads)
         guide = lesson.learn(places, threads);
         guide.paths_ = end * paths_of_a_part;
     };
-    go_on(0, first_parts);
-    if (guide.is_on()) go_on(first_parts, parts);
+    go_on(0, first_lesson);
+    if (guide.is_on()) go_on(first_lesson, parts);
     guide.seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return guide;
 }

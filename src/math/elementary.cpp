@@ -21,7 +21,7 @@
 namespace plumb {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double infinity_d = std::numeric_limits<double>::infinity();
 constexpr double ln2_high = 0x1.62e42feep-1; // times a small integer, this part of ln 2 is exact [1]
 constexpr double ln2_low = 0x1.a39ef35793c76p-33;
 constexpr double two_over_pi = 0x1.45f306dc9c883p-1;
@@ -146,7 +146,7 @@ double exp(double x)
 {
     constexpr double log2_e = 0x1.71547652b82fep+0;
     if (std::isnan(x)) return x;
-    if (x > 0x1.62e42fefa39efp+9) return infinity;
+    if (x > 0x1.62e42fefa39efp+9) return infinity_d;
     if (x < -0x1.6232bdd7abcd2p+9) return 0.0; // the result is below the smallest normal number
 
     // e^x = 2^k e^r, |r| <= ln(2) / 2: the first term left out is 0.347^14 / 14! = 4e-18.
@@ -162,8 +162,8 @@ double exp(double x)
 double log(double x)
 {
     constexpr double sqrt_2 = 0x1.6a09e667f3bcdp+0;
-    if (!(x > 0.0)) return x == 0.0 ? -infinity : not_a_number;
-    if (x == infinity) return x;
+    if (!(x > 0.0)) return x == 0.0 ? -infinity_d : not_a_number;
+    if (x == infinity_d) return x;
 
     // x = 2^k m with m in [sqrt(1/2), sqrt(2)).
     double k = 0.0;
@@ -191,17 +191,17 @@ double atan2(double y, double x)
     if (std::isnan(x) || std::isnan(y)) return not_a_number;
     double a = std::abs(x);
     double b = std::abs(y);
-    if (a == infinity || b == infinity) {
-        a = a == infinity ? 1.0 : 0.0;
-        b = b == infinity ? 1.0 : 0.0;
+    if (a == infinity_d || b == infinity_d) {
+        a = a == infinity_d ? 1.0 : 0.0;
+        b = b == infinity_d ? 1.0 : 0.0;
     }
     if (a == 0.0 && b == 0.0) return 0.0;
 
-    constexpr double half_pi = 0x1.921fb54442d18p+0;
-    constexpr double pi = 0x1.921fb54442d18p+1;
+    constexpr double right_angle = 0x1.921fb54442d18p+0;
+    constexpr double straight_angle = 0x1.921fb54442d18p+1;
     double angle = atan_in_first_octant(std::min(a, b), std::max(a, b));
-    if (b > a) angle = half_pi - angle;
-    if (x < 0.0) angle = pi - angle;
+    if (b > a) angle = right_angle - angle;
+    if (x < 0.0) angle = straight_angle - angle;
     return y < 0.0 ? -angle : angle;
 }
 

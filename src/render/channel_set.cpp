@@ -13,7 +13,7 @@
 namespace plumb {
 namespace {
 
-constexpr std::string_view kinds[] = {"mean", "hits", "id", "variance", "variance_of_hits", "share"};
+constexpr std::string_view layer_kinds[] = {"mean", "hits", "id", "variance", "variance_of_hits", "share"};
 constexpr std::size_t max_components = 4;
 
 bool is_name(std::string_view text)
@@ -38,11 +38,11 @@ Layer layer_from_text(std::string_view text)
     layer.name = cut(text, ':');
     std::string_view components = cut(text, ':');
     while (!components.empty()) layer.components.emplace_back(cut(components, ','));
-    const auto kind = std::find(std::begin(kinds), std::end(kinds), text);
-    layer.kind = static_cast<LayerKind>(kind - std::begin(kinds));
+    const auto kind = std::find(std::begin(layer_kinds), std::end(layer_kinds), text);
+    layer.kind = static_cast<LayerKind>(kind - std::begin(layer_kinds));
     const std::set<std::string> unique(layer.components.begin(), layer.components.end());
     const std::size_t count = layer.components.size();
-    if (!is_layer_name(layer.name) || kind == std::end(kinds) || unique.size() != count || count < 1 ||
+    if (!is_layer_name(layer.name) || kind == std::end(layer_kinds) || unique.size() != count || count < 1 ||
         count > max_components || (layer.kind == LayerKind::id && count != 1) ||
         !std::all_of(unique.begin(), unique.end(), is_name))
         throw Error("the text is no set of layers");
@@ -69,8 +69,9 @@ std::string to_text(const ChannelSet& layers)
 {
     std::string text;
     for (const Layer& layer : layers)
-        text += fmt::format("{}{}:{}:{}", text.empty() ? "" : " ", layer.name,
-                            fmt::join(layer.components, ","), kinds[static_cast<std::size_t>(layer.kind)]);
+        text +=
+            fmt::format("{}{}:{}:{}", text.empty() ? "" : " ", layer.name, fmt::join(layer.components, ","),
+                        layer_kinds[static_cast<std::size_t>(layer.kind)]);
     return text.empty() ? "none" : text;
 }
 

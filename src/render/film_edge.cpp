@@ -10,16 +10,16 @@ namespace plumb {
 
 namespace {
 
-constexpr std::size_t cells = 2048;
+constexpr std::size_t cells_of_edge = 2048;
 
 } // namespace
 
 FilmEdge::Profile::Profile(const Filter& filter, double begin, double end)
-    : begin_(begin), width_((end - begin) / static_cast<double>(cells)), negative_(cells)
+    : begin_(begin), width_((end - begin) / static_cast<double>(cells_of_edge)), negative_(cells_of_edge)
 {
-    std::vector<double> weights(cells);
+    std::vector<double> weights(cells_of_edge);
     double integral = 0.0;
-    for (std::size_t i = 0; i < cells; ++i) {
+    for (std::size_t i = 0; i < cells_of_edge; ++i) {
         const double offset = begin + (static_cast<double>(i) + 0.5) * width_;
         // Filters are separable: along the axis, all are the same but for a factor.
         const auto value = static_cast<double>(filter.evaluate({static_cast<float>(offset), 0.f}));

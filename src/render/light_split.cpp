@@ -21,7 +21,7 @@ struct KindOfSplit {
     std::string_view name;
     int own; // the default; 0: it takes no number
 };
-constexpr KindOfSplit kinds[] = {
+constexpr KindOfSplit kinds_of_split[] = {
     {By::depth, "depth", 8}, {By::technique, "technique", 0}, {By::light, "light", 16}};
 constexpr int most_own = static_cast<int>(max_layers) - 1;
 
@@ -29,17 +29,17 @@ constexpr std::string_view technique_names[] = {"view", "emitter_sampling", "dir
 
 const KindOfSplit& kind_of(By by)
 {
-    return *std::find_if(std::begin(kinds), std::end(kinds),
+    return *std::find_if(std::begin(kinds_of_split), std::end(kinds_of_split),
                          [by](const KindOfSplit& kind) { return kind.by == by; });
 }
 
 LightSplit split_from_text(std::string_view text)
 {
     const std::size_t colon = std::min(text.find(':'), text.size());
-    const auto* const kind = std::find_if(std::begin(kinds), std::end(kinds), [&](const KindOfSplit& one) {
-        return one.name == text.substr(0, colon);
-    });
-    if (kind == std::end(kinds))
+    const auto* const kind =
+        std::find_if(std::begin(kinds_of_split), std::end(kinds_of_split),
+                     [&](const KindOfSplit& one) { return one.name == text.substr(0, colon); });
+    if (kind == std::end(kinds_of_split))
         throw Error(
             fmt::format("unknown split '{}'; known are depth, technique and light", text.substr(0, colon)));
     LightSplit split{kind->by, kind->own};

@@ -64,7 +64,7 @@ constexpr Entry<Bsdf> bsdfs[] = {
     {"coating", build<class Coating>, "Coating"},
 };
 
-constexpr Entry<Texture> textures[] = {
+constexpr Entry<Texture> texture_entries[] = {
     {"checker", build<class Checker>, "Checker"},
     {"textmap", build<class TextMap>, "TextMap"},
     {"checkerboard_color", build<class Checkerboard>, "Checkerboard"},
@@ -197,7 +197,7 @@ std::span<const Entry<Bsdf>> bsdf_types()
 
 std::span<const Entry<Texture>> texture_types()
 {
-    return textures;
+    return texture_entries;
 }
 
 std::span<const Entry<Emitter>> emitter_types()
@@ -272,7 +272,7 @@ std::vector<std::string_view> parameter_lines(std::string_view manual)
     return lines;
 }
 
-std::string_view leading_name(std::string_view line)
+std::string_view leading_word(std::string_view line)
 {
     return line.substr(0, std::min(line.find_first_not_of(name_characters), line.size()));
 }
@@ -282,7 +282,7 @@ std::string_view leading_name(std::string_view line)
 std::vector<std::string_view> parameters_in(std::string_view manual)
 {
     std::vector<std::string_view> names;
-    for (const std::string_view line : parameter_lines(manual)) names.push_back(leading_name(line));
+    for (const std::string_view line : parameter_lines(manual)) names.push_back(leading_word(line));
     return names;
 }
 
@@ -292,10 +292,10 @@ std::vector<std::string_view> texture_parameters_of(std::string_view kind, std::
     for (const TypeInfo& info : known_types()) {
         if (info.kind != kind || info.name != type) continue;
         for (const std::string_view line : parameter_lines(info.manual)) {
-            std::string_view rest = line.substr(leading_name(line).size());
+            std::string_view rest = line.substr(leading_word(line).size());
             rest.remove_prefix(std::min(rest.find_first_not_of(' '), rest.size()));
             if (rest.starts_with("color or texture") || rest.starts_with("float or texture"))
-                names.push_back(leading_name(line));
+                names.push_back(leading_word(line));
         }
     }
     return names;

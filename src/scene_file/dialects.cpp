@@ -10,9 +10,8 @@ namespace plumb {
 
 namespace {
 
-constexpr DialectName courses[] = {DialectName::zaragoza, DialectName::mcgill, DialectName::eth,
-                                   DialectName::epfl};
-constexpr unsigned plumb_files = course_bit(DialectName::plumb);
+constexpr DialectName all_courses[] = {DialectName::zaragoza, DialectName::mcgill, DialectName::eth,
+                                       DialectName::epfl};
 
 bool only(const Mark& mark, DialectName course)
 {
@@ -72,7 +71,7 @@ bool decides_for_plumb(const std::vector<Mark>& marks)
 
 std::optional<DialectEvidence> decide(const std::vector<Mark>& marks, bool by_name)
 {
-    for (const DialectName course : courses) {
+    for (const DialectName course : all_courses) {
         const std::vector<const Mark*> deciding = deciding_marks(marks, course);
         if (deciding.empty() || is_contradicted(marks, course, deciding[0]->weight, by_name)) continue;
         DialectEvidence evidence;
@@ -115,7 +114,7 @@ DialectEvidence undecided(const std::vector<Mark>& marks)
             evidence.reason += fmt::format("{}{} of {} files", who == text_of.begin()->first ? "" : " with ",
                                            text, names(who));
     }
-    for (const DialectName course : courses)
+    for (const DialectName course : all_courses)
         if (std::any_of(text_of.begin(), text_of.end(),
                         [&](const auto& entry) { return (entry.first & course_bit(course)) != 0; }))
             evidence.suspects.push_back(course);

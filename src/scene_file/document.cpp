@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 #include <pugixml.hpp>
@@ -127,6 +128,26 @@ std::string Element::value(std::string_view name) const
     return found ? found->value : std::string();
 }
 
+const Element* Element::child_named(std::string_view name) const
+{
+    const auto found = std::find_if(children.begin(), children.end(),
+                                    [&](const Element& child) { return child.value("name") == name; });
+    return found == children.end() ? nullptr : &*found;
+}
+
+Element* Element::child_named(std::string_view name)
+{
+    return const_cast<Element*>(std::as_const(*this).child_named(name));
+}
+
+// Recursion ends: parse_document().
+std::size_t Element::count_parts() const
+{
+    std::size_t count = 1 + attributes.size();
+    for (const Element& child : children) count += child.count_parts();
+    return count;
+}
+
 std::string Element::written_tag() const
 {
     return written && !written->tag.empty() ? written->tag : tag;
@@ -155,6 +176,12 @@ SourceLocation Element::name_place(const Attribute& attribute) const
 SourceLocation Element::value_place(const Attribute& attribute) const
 {
     return file->place(attribute.value_offset, attribute.value_length);
+}
+
+SourceLocation Element::id_place() const
+{
+    const Attribute* id = attribute("id");
+    return id ? value_place(*id) : place();
 }
 
 SourceLocation Element::part_place(const Attribute& attribute, std::size_t begin, std::size_t length) const

@@ -59,6 +59,10 @@ struct Element {
 
     const Attribute* attribute(std::string_view name) const; // or null
     std::string value(std::string_view name) const;          // of an attribute; empty without it
+    const Element* child_named(
+        std::string_view name) const; // the first with such an attribute `name`, or null
+    Element* child_named(std::string_view name);
+    std::size_t count_parts() const; // elements, itself included, and attributes
 
     // The tag and the attributes type and name as the file has them, for messages.
     std::string written_tag() const;
@@ -70,6 +74,7 @@ struct Element {
     SourceLocation place() const;
     SourceLocation name_place(const Attribute& attribute) const;
     SourceLocation value_place(const Attribute& attribute) const;
+    SourceLocation id_place() const; // of the value of its id, or its own
     // Of a part of the value; of all of it where it is not verbatim.
     SourceLocation part_place(const Attribute& attribute, std::size_t begin, std::size_t length) const;
 };

@@ -9,16 +9,15 @@ namespace plumb {
 
 namespace {
 
-constexpr std::string_view vacuum = "Plumb renders surfaces in a vacuum only";
 constexpr std::string_view use_image_texture = "use 'bitmap' with <string name=\"filename\">";
 constexpr std::string_view use_tube =
     "use an 'area' emitter on a small shape inside a black tube, or 'point'";
 constexpr std::string_view use_cloth = "use 'principled', whose sheen is like cloth";
 
-constexpr ForeignName names[] = {
-    {"tag", "medium", "", vacuum},
-    {"tag", "phase", "", vacuum},
-    {"tag", "volume", "", vacuum},
+constexpr ForeignName foreign_entries[] = {
+    {"tag", "medium", "", vacuum_only},
+    {"tag", "phase", "", vacuum_only},
+    {"tag", "volume", "", vacuum_only},
     {"tag", "denoiser", "",
      "Plumb's images are unbiased estimates; denoise the written .exr with another program"},
     {"tag", "sensor", "camera", ""},
@@ -74,7 +73,7 @@ constexpr ForeignName names[] = {
 const ForeignName* find(std::string_view kind, std::string_view name)
 {
     const std::string wanted = folded(name);
-    for (const ForeignName& entry : names)
+    for (const ForeignName& entry : foreign_entries)
         if (entry.kind == kind && folded(entry.name) == wanted) return &entry;
     return nullptr;
 }
@@ -83,7 +82,7 @@ const ForeignName* find(std::string_view kind, std::string_view name)
 
 std::span<const ForeignName> foreign_names()
 {
-    return names;
+    return foreign_entries;
 }
 
 std::optional<std::string> foreign_type(std::string_view kind, std::string_view name)

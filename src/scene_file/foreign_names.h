@@ -17,6 +17,8 @@ struct ForeignName {
     std::string_view advice; // then
 };
 
+inline constexpr std::string_view vacuum_only = "Plumb renders surfaces in a vacuum only";
+
 std::span<const ForeignName> foreign_names();
 
 // "integrator 'mipath' is 'path_mis' here", "bsdf 'coating' is not supported; use 'roughsubstrate'"; nothing for other

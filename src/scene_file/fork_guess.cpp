@@ -15,11 +15,6 @@ namespace plumb {
 
 namespace {
 
-constexpr std::string_view other_way =
-    "this is rendered by 'path_mis', which finds the same light up to noise";
-constexpr std::string_view no_media =
-    "this is rendered by 'path_mis': in a scene without media the light is the same";
-
 // In any name.
 constexpr std::string_view fillers[] = {
     "simple", "new", "old", "my", "test", "full", "final", "basic", "advanced", "custom", "v",     "with",
@@ -121,7 +116,7 @@ constexpr std::string_view sampler_words[] = {
     "halton",     "hammersley", "sobol",    "sequence",    "low",    "discrepancy",
     "stratified", "jittered",   "jitter",   "multi",       "blue",   "noise"};
 
-constexpr Kind kinds[] = {
+constexpr Kind known_kinds[] = {
     {"integrator", integrator_words}, {"texture", texture_words},
     {"emitter", emitter_words},       {"bsdf", bsdf_words},
     {"camera", camera_words},         {"sampler", sampler_words},
@@ -258,9 +253,9 @@ std::vector<std::string_view> words_in(std::string_view name, std::span<const st
 
 const TypeName* guess_fork_type(std::string_view kind, std::string_view theirs)
 {
-    const auto* of_kind =
-        std::find_if(std::begin(kinds), std::end(kinds), [&](const Kind& row) { return row.kind == kind; });
-    if (of_kind == std::end(kinds)) return nullptr;
+    const auto* of_kind = std::find_if(std::begin(known_kinds), std::end(known_kinds),
+                                       [&](const Kind& row) { return row.kind == kind; });
+    if (of_kind == std::end(known_kinds)) return nullptr;
     const std::string name = folded(theirs);
     const std::vector<std::string_view> words = words_in(name, of_kind->words);
     for (const Meaning& meaning : meanings())

@@ -15,13 +15,6 @@ namespace plumb {
 
 namespace {
 
-Element* child_named(Element& element, std::string_view name)
-{
-    const auto found = std::find_if(element.children.begin(), element.children.end(),
-                                    [&](const Element& child) { return child.value("name") == name; });
-    return found == element.children.end() ? nullptr : &*found;
-}
-
 // What a texture that no BSDF of its own stands around is for.
 enum class MapKind { none, normal, height };
 
@@ -61,16 +54,16 @@ Element mapped(Element bsdf, Element map)
         std::erase_if(bsdf.attributes, [](const Attribute& attribute) { return attribute.name == "id"; });
     set_attribute(map, "name", is_normal ? "normal" : "height");
     const std::string type = map.value("type");
-    if ((type == "bitmap" || type == "imagetexture_color3f") && !child_named(map, "raw"))
+    if ((type == "bitmap" || type == "imagetexture_color3f") && !map.child_named("raw"))
         map.children.push_back(made_parameter(map, "boolean", "raw", "true"));
     outer.children.push_back(std::move(map));
     outer.children.push_back(std::move(bsdf));
     return outer;
 }
 
-class Order {
+class ForkOrder {
 public:
-    explicit Order(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+    explicit ForkOrder(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
 
     // Recursion ends: parse_document().
     void visit(Element& element)
@@ -185,7 +178,7 @@ private:
         set_attribute(matrix, "value",
                       fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} 0 0 0 1", u->x, v->x, n.x, center.x,
                                   u->y, v->y, n.y, center.y, u->z, v->z, n.z, center.z));
-        if (Element* given = child_named(shape, "toWorld"); given && given->tag == "transform") {
+        if (Element* given = shape.child_named("toWorld"); given && given->tag == "transform") {
             given->children.insert(given->children.begin(), std::move(matrix));
             return;
         }
@@ -197,7 +190,7 @@ private:
 
     std::optional<Vec3d> take_vector(Element& shape, std::string_view name)
     {
-        Element* child = child_named(shape, name);
+        Element* child = shape.child_named(name);
         const Attribute* value = child ? child->attribute("value") : nullptr;
         if (!value) {
             diagnostics_.error(shape.place(),
@@ -219,7 +212,7 @@ private:
                                           [](const Element& child) { return child.tag == "texture"; });
         if (texture == emitter.children.end()) return;
         for (const char* name : {"filename", "filepath", "value"}) {
-            Element* given = child_named(*texture, name);
+            Element* given = texture->child_named(name);
             if (!given || (given->tag != "string" && given->tag != "color")) continue;
             Element moved = std::move(*given);
             emitter.children.erase(texture);
@@ -249,21 +242,21 @@ private:
     // Who says where the fall-off starts means pbrt's. Where it does not, there is none.
     void order_spot(Element& emitter)
     {
-        Element* start = child_named(emitter, "falloff");
+        Element* start = emitter.child_named("falloff");
         if (start && start->tag == "float" && angle_of_cosine(*start, diagnostics_))
             rename_attribute_value(*start, "name", "beamWidth");
         limit_beam(emitter);
-        const Element* beam = child_named(emitter, "beamWidth");
+        const Element* beam = emitter.child_named("beamWidth");
         if (beam && folded(beam->written_name()).find("falloff") != std::string::npos &&
-            !child_named(emitter, "falloff"))
+            !emitter.child_named("falloff"))
             emitter.children.push_back(made_parameter(emitter, "string", "falloff", "quartic"));
     }
 
     // Forks say 50 degrees for the start of a fall-off that ends at 30.
     void limit_beam(Element& emitter)
     {
-        Element* beam = child_named(emitter, "beamWidth");
-        const Element* cutoff = child_named(emitter, "cutoffAngle");
+        Element* beam = emitter.child_named("beamWidth");
+        const Element* cutoff = emitter.child_named("cutoffAngle");
         if (!beam || !cutoff || beam->written_name() == beam->value("name")) return;
         const Attribute *from = beam->attribute("value"), *to = cutoff->attribute("value");
         if (!from || !to) return;
@@ -285,7 +278,7 @@ private:
 
 void order_forks(Element& root, Diagnostics& diagnostics)
 {
-    Order order(diagnostics);
+    ForkOrder order(diagnostics);
     order.visit(root);
     order.take_environments_out(root);
 }

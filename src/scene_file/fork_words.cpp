@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "scene_file/fork_words.h"
 
+#include "scene_file/foreign_names.h"
+
 namespace plumb {
 
 namespace {
 
-constexpr std::string_view same_light =
-    "this is rendered by 'path_mis', which finds the same light up to noise";
-constexpr std::string_view no_media =
-    "this is rendered by 'path_mis': in a scene without media the light is the same";
 constexpr std::string_view no_alpha = "'alphaTexture' is not used; a 'mask' around the BSDF makes holes";
-constexpr std::string_view vacuum = "Plumb renders surfaces in a vacuum only";
 constexpr std::string_view under_surface =
     "Plumb's light does not go on below surfaces; use 'principled' with flatness";
 constexpr std::string_view not_used = "'{}' is not used: {} '{}' has no such parameter";
@@ -65,26 +62,26 @@ constexpr TypeName types[] = {
     {"integrator", "ambient_occlusion", "ao", {}, "ao"},
     {"integrator", "average_visibility", "av", {}, "av"},
     {"integrator", "normal", "normals", {}, "normals"},
-    {"integrator", "photonmapper", "path_mis", same_light, "photonmapper"},
-    {"integrator", "photonmapping", "path_mis", same_light, "photonmapper"},
-    {"integrator", "photonmap", "path_mis", same_light, "photonmapper"},
-    {"integrator", "progressive_photonmapper", "path_mis", same_light, "photonmapper"},
-    {"integrator", "progressive_photonmapping", "path_mis", same_light, "photonmapper"},
-    {"integrator", "ppm", "path_mis", same_light, "photonmapper"},
-    {"integrator", "sppm", "path_mis", same_light, "photonmapper"},
-    {"integrator", "pmap", "path_mis", same_light, "photonmapper"},
-    {"integrator", "bdpt", "path_mis", same_light, "photonmapper"},
-    {"integrator", "bidirectional_path", "path_mis", same_light, "photonmapper"},
-    {"integrator", "bidirectional", "path_mis", same_light, "photonmapper"},
-    {"integrator", "vcm", "path_mis", same_light, "photonmapper"},
-    {"integrator", "mlt", "path_mis", same_light, "photonmapper"},
-    {"integrator", "pssmlt", "path_mis", same_light, "photonmapper"},
-    {"integrator", "light_tracer", "path_mis", same_light, "photonmapper"},
-    {"integrator", "ptracer", "path_mis", same_light, "photonmapper"},
-    {"integrator", "particle_tracer", "path_mis", same_light, "photonmapper"},
-    {"integrator", "irrcache", "path_mis", same_light, "photonmapper"},
-    {"integrator", "vpl", "path_mis", same_light, "photonmapper"},
-    {"integrator", "instant_radiosity", "path_mis", same_light, "photonmapper"},
+    {"integrator", "photonmapper", "path_mis", other_way, "photonmapper"},
+    {"integrator", "photonmapping", "path_mis", other_way, "photonmapper"},
+    {"integrator", "photonmap", "path_mis", other_way, "photonmapper"},
+    {"integrator", "progressive_photonmapper", "path_mis", other_way, "photonmapper"},
+    {"integrator", "progressive_photonmapping", "path_mis", other_way, "photonmapper"},
+    {"integrator", "ppm", "path_mis", other_way, "photonmapper"},
+    {"integrator", "sppm", "path_mis", other_way, "photonmapper"},
+    {"integrator", "pmap", "path_mis", other_way, "photonmapper"},
+    {"integrator", "bdpt", "path_mis", other_way, "photonmapper"},
+    {"integrator", "bidirectional_path", "path_mis", other_way, "photonmapper"},
+    {"integrator", "bidirectional", "path_mis", other_way, "photonmapper"},
+    {"integrator", "vcm", "path_mis", other_way, "photonmapper"},
+    {"integrator", "mlt", "path_mis", other_way, "photonmapper"},
+    {"integrator", "pssmlt", "path_mis", other_way, "photonmapper"},
+    {"integrator", "light_tracer", "path_mis", other_way, "photonmapper"},
+    {"integrator", "ptracer", "path_mis", other_way, "photonmapper"},
+    {"integrator", "particle_tracer", "path_mis", other_way, "photonmapper"},
+    {"integrator", "irrcache", "path_mis", other_way, "photonmapper"},
+    {"integrator", "vpl", "path_mis", other_way, "photonmapper"},
+    {"integrator", "instant_radiosity", "path_mis", other_way, "photonmapper"},
     {"integrator", "volume", "path_mis", no_media, "photonmapper"},
     {"integrator", "volpath", "path_mis", no_media, "photonmapper"},
     {"integrator", "volpath_simple", "path_mis", no_media, "photonmapper"},
@@ -492,8 +489,8 @@ constexpr Ignored ignored[] = {
 };
 
 constexpr Refusal refusals[] = {
-    {"medium", "", vacuum, true},      {"phase", "", vacuum, true},
-    {"volume", "", vacuum, true},      {"bsdf", "subsurface", under_surface},
+    {"medium", "", vacuum_only, true}, {"phase", "", vacuum_only, true},
+    {"volume", "", vacuum_only, true}, {"bsdf", "subsurface", under_surface},
     {"bsdf", "bssrdf", under_surface}, {"bsdf", "merl", "use 'principled'"},
 };
 

@@ -8,6 +8,12 @@
 
 namespace plumb {
 
+// What an image of theirs has that ours has, too.
+inline constexpr std::string_view other_way =
+    "this is rendered by 'path_mis', which finds the same light up to noise";
+inline constexpr std::string_view no_media =
+    "this is rendered by 'path_mis': in a scene without media the light is the same";
+
 // For Vocabulary::base of the courses' words.
 extern const Vocabulary fork_words;
 

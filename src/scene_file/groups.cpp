@@ -19,12 +19,6 @@ namespace {
 constexpr std::string_view group_type = "group";
 constexpr std::string_view instance_type = "instance";
 
-SourceLocation id_place(const Element& element)
-{
-    const Attribute* id = element.attribute("id");
-    return id ? element.value_place(*id) : element.place();
-}
-
 std::string place_text(const Element& element)
 {
     const SourceLocation at = element.place();
@@ -122,7 +116,7 @@ void Groups::build_groups(LoadContext& context)
         if (id.empty()) continue;
         const auto [known, is_new] = by_id_.try_emplace(id, Known{element, nullptr});
         if (!is_new) {
-            const SourceLocation first = known->second.element->place(), second = id_place(*element);
+            const SourceLocation first = known->second.element->place(), second = element->id_place();
             context.diagnostics.error(second, fmt::format("the id '{}' is given twice; first given at {} {}",
                                                           id, first.file == second.file ? "line" : first.file,
                                                           first.line));
@@ -178,16 +172,16 @@ Groups::Known* Groups::named(const Element& ref, LoadContext& context)
     const std::string id = ref.value("id");
     if (const auto found = by_id_.find(id); found != by_id_.end()) return &found->second;
     if (const Element* other = context.shared->named(id)) {
-        context.diagnostics.error(id_place(ref),
+        context.diagnostics.error(ref.id_place(),
                                   fmt::format("'{}' is a <{}>, not a group of shapes", id, other->tag));
         return nullptr;
     }
     std::vector<std::string_view> known;
     for (const auto& [name, group] : by_id_) known.push_back(name);
     const bool is_mitsuba = context.vocabulary && context.vocabulary->complete;
-    context.diagnostics.error(id_place(ref), fmt::format("no <shape type=\"{}\"> has the id '{}'{}",
-                                                         is_mitsuba ? "shapegroup" : "group", id,
-                                                         known.empty() ? "" : way_out(id, known)));
+    context.diagnostics.error(ref.id_place(), fmt::format("no <shape type=\"{}\"> has the id '{}'{}",
+                                                          is_mitsuba ? "shapegroup" : "group", id,
+                                                          known.empty() ? "" : way_out(id, known)));
     return nullptr;
 }
 

@@ -32,6 +32,7 @@ constexpr unsigned course_bit(DialectName name)
 {
     return 1U << static_cast<unsigned>(name);
 }
+inline constexpr unsigned plumb_files = course_bit(DialectName::plumb);
 
 // Those of a <scene> or <test>, each once. beside: of a file in the directory of the one that is read, whose name the
 // texts then have.

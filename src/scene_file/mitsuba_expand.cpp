@@ -20,13 +20,6 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t most_levels = 15; // of files that include each other, as in Mitsuba
 
-std::size_t count_parts(const Element& element)
-{
-    std::size_t count = 1 + element.attributes.size();
-    for (const Element& child : element.children) count += count_parts(child);
-    return count;
-}
-
 bool is_there(const fs::path& path)
 {
     std::error_code status;
@@ -44,7 +37,7 @@ public:
         files_.push_back(root.file);
         directories_.push_back(root.file->directory());
         text_size_ = root.file->text().size();
-        parts_ = count_parts(root);
+        parts_ = root.count_parts();
         substitute(root);
         gather_children(root);
         for (const auto& [name, value] : definitions_)
@@ -266,7 +259,7 @@ private:
                 fmt::format("'{}' begins with <{}>; a scene can include a <scene> or one of its objects",
                             path.string(), root->tag));
         files_.push_back(root->file);
-        parts_ += count_parts(*root);
+        parts_ += root->count_parts();
         if (parts_ > limits_.parts)
             return fail(fmt::format("with '{}', this scene has more than {} elements and attributes",
                                     path.string(), limits_.parts));

@@ -16,9 +16,9 @@ namespace plumb {
 
 namespace {
 
-class Order {
+class MitsubaOrder {
 public:
-    Order(Element& root, Diagnostics& diagnostics) : root_(root), diagnostics_(diagnostics) {}
+    MitsubaOrder(Element& root, Diagnostics& diagnostics) : root_(root), diagnostics_(diagnostics) {}
 
     void run()
     {
@@ -317,7 +317,7 @@ private:
 
 void order_mitsuba(Element& root, Diagnostics& diagnostics)
 {
-    Order(root, diagnostics).run();
+    MitsubaOrder(root, diagnostics).run();
 }
 
 } // namespace plumb

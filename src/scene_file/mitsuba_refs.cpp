@@ -19,13 +19,6 @@ bool is_copied(const Element& element)
     return std::find(std::begin(tags), std::end(tags), element.tag) != std::end(tags);
 }
 
-std::size_t count_parts(const Element& element)
-{
-    std::size_t count = 1 + element.attributes.size();
-    for (const Element& child : element.children) count += count_parts(child);
-    return count;
-}
-
 class Placer {
 public:
     Placer(const Element& root, std::size_t most_parts, Diagnostics& diagnostics)
@@ -71,7 +64,7 @@ private:
             std::erase_if(ref.attributes, [](const Attribute& a) { return a.name == "name"; });
             return;
         }
-        const std::size_t parts = count_parts(*found->second);
+        const std::size_t parts = found->second->count_parts();
         if (open_.contains(id) || parts > left_) {
             diagnostics_.error(ref.place(),
                                open_.contains(id)

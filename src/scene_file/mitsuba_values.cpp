@@ -110,16 +110,9 @@ bool to_color(Element& parameter, Role role, Diagnostics& diagnostics)
 
 // --- Spectra that are objects ---------------------------------------------------------------------------------
 
-const Element* child_named(const Element& element, std::string_view name)
-{
-    for (const Element& child : element.children)
-        if (child.value("name") == name) return &child;
-    return nullptr;
-}
-
 double number_of(const Element& element, std::string_view name, double fallback, Diagnostics& diagnostics)
 {
-    const Element* child = child_named(element, name);
+    const Element* child = element.child_named(name);
     const Attribute* value = child ? child->attribute("value") : nullptr;
     return value ? read_number(*child, *value, diagnostics).value_or(fallback) : fallback;
 }
@@ -148,7 +141,7 @@ bool regular_spectrum(Element& element, Diagnostics& diagnostics)
 {
     const double first = number_of(element, "wavelength_min", 0.0, diagnostics),
                  last = number_of(element, "wavelength_max", 0.0, diagnostics);
-    const Element* values = child_named(element, "values");
+    const Element* values = element.child_named("values");
     const Attribute* list = values ? values->attribute("value") : nullptr;
     if (!list || !(first < last)) {
         diagnostics.error(element.place(), "a regular spectrum needs a string 'values', and 'wavelength_min' "
@@ -184,7 +177,7 @@ bool spectrum_object(Element& element, Diagnostics& diagnostics)
     }
     if (type == "d65") {
         const double scale = number_of(element, "scale", 1.0, diagnostics);
-        const Element* color = child_named(element, "color");
+        const Element* color = element.child_named("color");
         const Attribute* value = color && color->tag == "rgb" ? color->attribute("value") : nullptr;
         if (!value) return flatten({"scale"}, "float", fmt::format("{}", scale));
         const auto numbers = read_numbers(*color, *value, {3, 1}, diagnostics);
@@ -194,7 +187,7 @@ bool spectrum_object(Element& element, Diagnostics& diagnostics)
                        triple(c[0] * scale, c[c.size() / 2] * scale, c[c.size() - 1] * scale));
     }
     if (type == "srgb") {
-        const Element* color = child_named(element, "color");
+        const Element* color = element.child_named("color");
         return flatten({"color"}, "rgb", color ? color->value("value") : "");
     }
     if (type == "blackbody") {
@@ -214,8 +207,7 @@ bool spectrum_object(Element& element, Diagnostics& diagnostics)
     }
     if (type == "regular") return regular_spectrum(element, diagnostics);
     // irregular: two lists of the same length.
-    const Element *wavelengths = child_named(element, "wavelengths"),
-                  *values = child_named(element, "values");
+    const Element *wavelengths = element.child_named("wavelengths"), *values = element.child_named("values");
     const Attribute *first = wavelengths ? wavelengths->attribute("value") : nullptr,
                     *second = values ? values->attribute("value") : nullptr;
     if (!first || !second) {

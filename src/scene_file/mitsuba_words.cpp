@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "scene_file/mitsuba_words.h"
 
+#include "scene_file/foreign_names.h"
 #include "scene_file/mitsuba06_words.h"
 #include "scene_file/mitsuba_values.h"
 
@@ -13,7 +14,6 @@ namespace plumb {
 
 namespace {
 
-constexpr std::string_view vacuum = "Plumb renders surfaces in a vacuum only";
 constexpr std::string_view unpolarised =
     "Plumb's light is not polarised; a 'mask' of opacity 0.5 around a black 'diffuse' absorbs as much of it";
 constexpr std::string_view as_mesh = "export it as a mesh";
@@ -325,9 +325,9 @@ constexpr Preset presets[] = {
 };
 
 constexpr Refusal refusals[] = {
-    {"medium", "", vacuum, true},
-    {"volume", "", vacuum, true},
-    {"phase", "", vacuum, true},
+    {"medium", "", vacuum_only, true},
+    {"volume", "", vacuum_only, true},
+    {"phase", "", vacuum_only, true},
     {"animation", "", "Plumb renders one moment: use one <transform>", false, "transform"},
     {"blackbody", "", "write <spectrum type=\"blackbody\" name=\"...\">"},
     {"srgb", "", "write it as a linear <rgb>"},

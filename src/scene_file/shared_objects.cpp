@@ -24,12 +24,6 @@ std::string title(const Element& element)
     return fmt::format("{} '{}'", element.tag, id.empty() ? element.value("type") : id);
 }
 
-SourceLocation id_place(const Element& element)
-{
-    const Attribute* id = element.attribute("id");
-    return id ? element.value_place(*id) : element.place();
-}
-
 // Recursion ends: parse_document().
 void find_textures(const Element& element, std::set<const Element*>& found)
 {
@@ -112,7 +106,7 @@ void SharedObjects::reject_second(const std::string& id, LoadContext& context) c
 {
     const std::vector<const Element*>& elements = by_id_.find(id)->second;
     if (elements.size() < 2) return;
-    const SourceLocation first = elements[0]->place(), second = id_place(*elements[1]);
+    const SourceLocation first = elements[0]->place(), second = elements[1]->id_place();
     context.diagnostics.error(second,
                               fmt::format("the id '{}' is given twice; first given at {} {}", id,
                                           first.file == second.file ? "line" : first.file, first.line));
@@ -126,8 +120,8 @@ const Element* SharedObjects::find(const Element& ref, LoadContext& context) con
     if (const Element* found = named(id)) return found;
     std::vector<std::string_view> known;
     for (const auto& [name, elements] : by_id_) known.push_back(name);
-    context.diagnostics.error(id_place(ref), fmt::format("no <bsdf> or <texture> has the id '{}'{}", id,
-                                                         known.empty() ? "" : way_out(id, known)));
+    context.diagnostics.error(ref.id_place(), fmt::format("no <bsdf> or <texture> has the id '{}'{}", id,
+                                                          known.empty() ? "" : way_out(id, known)));
     return nullptr;
 }
 
@@ -195,7 +189,7 @@ std::shared_ptr<const Bsdf> build_bsdf(const Element& element, LoadContext& cont
     const Element* target = element.tag == "ref" ? context.shared->find(element, context) : &element;
     if (!target) return nullptr;
     if (target->tag == "bsdf") return context.shared->bsdf(*target, element.place(), context);
-    context.diagnostics.error(id_place(element),
+    context.diagnostics.error(element.id_place(),
                               fmt::format("'{}' is a <{}>, not a <bsdf>", element.value("id"), target->tag));
     return nullptr;
 }

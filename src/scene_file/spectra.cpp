@@ -17,7 +17,7 @@ constexpr double first_wavelength = 360.0, last_wavelength = 830.0, table_step =
 constexpr int steps = 1000; // of the integrals, both ends included, as in Mitsuba
 
 // [1]: colour matching functions x, y, z, and the relative power of D65, which is 100 at 560 nm.
-constexpr double table[][4] = {
+constexpr double standard_observer[][4] = {
     {0.0001299, 3.917e-06, 0.0006061, 46.6383},
     {0.0002321, 6.965e-06, 0.001086, 49.3637},
     {0.0004149, 1.239e-05, 0.001946, 52.0891},
@@ -123,9 +123,9 @@ using Function = std::function<double(double)>; // of the wavelength
 double at(double wavelength, int column)
 {
     const double place = (wavelength - first_wavelength) / table_step;
-    const auto row = std::min(static_cast<std::size_t>(place), std::size(table) - 2);
+    const auto row = std::min(static_cast<std::size_t>(place), std::size(standard_observer) - 2);
     const double t = place - static_cast<double>(row);
-    return (1.0 - t) * table[row][column] + t * table[row + 1][column];
+    return (1.0 - t) * standard_observer[row][column] + t * standard_observer[row + 1][column];
 }
 
 double wavelength_of(int step)

@@ -10,11 +10,11 @@ namespace plumb {
 
 namespace {
 
-constexpr std::string_view blanks = " \t\r\n";
+constexpr std::string_view xml_blanks = " \t\r\n";
 
 bool is_blank(char c)
 {
-    return blanks.find(c) != blanks.npos;
+    return xml_blanks.find(c) != xml_blanks.npos;
 }
 
 bool is_name_character(char c)
