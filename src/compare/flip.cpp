@@ -48,7 +48,7 @@ double upper_median(std::vector<double> values)
 }
 
 // Exposures in steps of about one stop: in the first, the brightest pixel of the reference is not yet white, in the
-// last its upper_median is ([2], section 3).
+// last its median is ([2], section 3).
 std::vector<double> exposures(const std::vector<Color>& reference)
 {
     std::vector<double> all;

@@ -8,7 +8,7 @@
 
 namespace plumb {
 
-// What an image of theirs has that ours has, too.
+// Why an integrator of ours may stand for theirs.
 inline constexpr std::string_view other_way =
     "this is rendered by 'path_mis', which finds the same light up to noise";
 inline constexpr std::string_view no_media =
