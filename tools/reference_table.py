@@ -82,6 +82,8 @@ def options(header, width, height):
     words = []
     if "plumb:set.size" in header or "--size" in header.get("plumb:arguments", ""):
         words.append(f"--size {width}x{height}")
+    if "plumb:set.sampler" in header:
+        words.append(f"--sampler {header['plumb:set.sampler']}")
     words += [f"-D {word}" for word in header.get("plumb:definitions", "").split()]
     return f"`{' '.join(words)}`" if words else ""
 

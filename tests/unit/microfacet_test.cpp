@@ -176,7 +176,8 @@ TEST_CASE("visible microfacets of the corners of the square are finite unit vect
                 }
 }
 
-TEST_CASE("GGX and stretched microfacets cover the surface, and what is seen of it", "[statistical][microfacet]")
+TEST_CASE("GGX and stretched microfacets cover the surface, and what is seen of it",
+          "[statistical][microfacet]")
 {
     for (const auto kind : {MicrofacetDistribution::Kind::beckmann, MicrofacetDistribution::Kind::ggx})
         for (const auto& [alpha_u, alpha_v] :
